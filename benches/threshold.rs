@@ -1,0 +1,77 @@
+//! What the stages of a threshold cost, one at a time: the paper's hash and every integer hash, both listings, both
+//! precisions.
+//!
+//! Inputs are the footprints of the oblique scene, 65,536 of them, so that no branch predictor learns them by heart.
+
+use criterion::{
+    BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main, measurement::WallTime,
+};
+use hashed_alpha::scene::Scene;
+use hashed_alpha::threshold::cdf::CdfForm;
+use hashed_alpha::threshold::footprint::Footprint;
+use hashed_alpha::threshold::hash::{Cell, Hash, HashKind, sine};
+use hashed_alpha::threshold::hashed::HashedAlpha;
+use hashed_alpha::threshold::real::Real;
+use hashed_alpha::threshold::two_scale::Variant;
+use std::hint::black_box;
+
+const SAMPLES: usize = 1 << 16;
+
+fn footprints<R: Real>() -> Vec<Footprint<R>> {
+    let scene = Scene::all().into_iter().find(|scene| scene.name == "oblique").expect("a built-in scene");
+    scene.footprints().step_by(11).take(SAMPLES).map(|footprint| footprint.cast()).collect()
+}
+
+fn cells<R: Real>() -> Vec<Cell<R>> {
+    footprints::<R>().iter().map(|f| Variant::Isotropic.two_scale(f, R::from_f64(1.0)).ceil_cell).collect()
+}
+
+fn sum<R: Real, T>(inputs: &[T], value: impl Fn(&T) -> R) -> R {
+    inputs.iter().fold(R::from_f64(0.0), |sum, input| sum + value(black_box(input)))
+}
+
+fn hashes<R: Real>(group: &mut BenchmarkGroup<'_, WallTime>) {
+    let cells = cells::<R>();
+    group.throughput(Throughput::Elements(cells.len() as u64));
+    group.bench_function(format!("hash_2d/{}", R::NAME), |b| {
+        b.iter(|| {
+            sum(&cells, |cell| {
+                let [x, y, _] = cell.index.into();
+                sine::hash_2d(x, y)
+            })
+        });
+    });
+    for kind in HashKind::ALL {
+        let name = if kind == HashKind::Sine { "hash_3d" } else { kind.name() };
+        group.bench_function(format!("{name}/{}", R::NAME), |b| {
+            b.iter(|| sum(&cells, |cell| kind.hash(cell)));
+        });
+    }
+}
+
+fn thresholds<R: Real>(group: &mut BenchmarkGroup<'_, WallTime>) {
+    let footprints = footprints::<R>();
+    group.throughput(Throughput::Elements(footprints.len() as u64));
+    for variant in Variant::ALL {
+        for hash in [HashKind::Sine, HashKind::Mm4] {
+            let hashed = HashedAlpha { variant, hash, hash_scale: 1.0, form: CdfForm::Literal };
+            group.bench_function(format!("{variant}/{hash}/{}", R::NAME), |b| {
+                b.iter(|| sum(&footprints, |footprint| hashed.threshold(footprint)));
+            });
+        }
+    }
+}
+
+fn all(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("hash");
+    hashes::<f32>(&mut group);
+    hashes::<f64>(&mut group);
+    group.finish();
+    let mut group = criterion.benchmark_group("threshold");
+    thresholds::<f32>(&mut group);
+    thresholds::<f64>(&mut group);
+    group.finish();
+}
+
+criterion_group!(benches, all);
+criterion_main!(benches);

@@ -1,0 +1,68 @@
+//! The range of the threshold, on every surface, with derivatives as they are and as a GPU takes them.
+
+use super::{Claim, Conclusion, Trial};
+use crate::check::sample::{moved, placement};
+use crate::check::tolerance::RANGE_RESOLUTION;
+use crate::check::{Evidence, Subject, Verdict};
+use crate::scene::Scene;
+use crate::stats::seed;
+use crate::threshold::footprint::Footprint;
+use crate::threshold::hashed::SMALLEST_THRESHOLD;
+
+/// Every threshold is a number in [1e-6, 1].
+pub const RANGE: Claim = Claim {
+    id: "range",
+    anchor: "§5, Listings 1 and 2 (last line)",
+    statement: "every threshold is a number in [1e-6, 1], on every surface, with analytic and with quad derivatives",
+    expected: Verdict::Consistent,
+    run: range,
+};
+
+fn range(subject: &Subject<'_>, seed: u64) -> Trial {
+    let mut rng = seed::rng(RANGE.id, seed);
+    let smallest = subject.precision.round_scalar(SMALLEST_THRESHOLD);
+    let (mut n, mut outside) = (0, 0);
+    let mut seen = Vec::new();
+    for scene in Scene::all() {
+        let scene = scene.with_resolution(RANGE_RESOLUTION);
+        let place = placement(&mut rng);
+        let mut footprints: Vec<Footprint<f64>> =
+            scene.footprints().map(|footprint| moved(&footprint, place, subject.precision)).collect();
+        footprints.extend(scene.quad_footprints().map(|footprint| footprint.cast::<f64>()));
+        let thresholds = subject.thresholds(&footprints);
+        let bad = |threshold: f64| !(smallest..=1.0).contains(&threshold);
+        let count = thresholds.iter().filter(|&&threshold| bad(threshold)).count();
+        if let Some(first) = thresholds.iter().position(|&threshold| bad(threshold)) {
+            let share = 100.0 * count as f64 / thresholds.len() as f64;
+            seen.push(format!(
+                "{}: {share:.1} %, first {}",
+                scene.name,
+                describe(&footprints[first], thresholds[first])
+            ));
+        }
+        n += thresholds.len();
+        outside += count;
+    }
+    Trial {
+        conclusion: Conclusion::Exact { holds: outside == 0 },
+        statistic: Some(outside as f64),
+        statistic_name: "thresholds outside [1e-6, 1]".into(),
+        n: n as u64,
+        effect: Some(outside as f64 / n as f64),
+        effect_name: "share of footprints",
+        detectable: Some(1.0 / n as f64),
+        seen: seen.join("; "),
+        evidence: Evidence::None,
+    }
+}
+
+/// Writes a footprint and its threshold so that they can be tried again.
+pub(super) fn describe(footprint: &Footprint<f64>, threshold: f64) -> String {
+    let vector = |v: glam::DVec3| format!("({:?}, {:?}, {:?})", v.x, v.y, v.z);
+    format!(
+        "{threshold:?} at position {}, dpdx {}, dpdy {}",
+        vector(footprint.position),
+        vector(footprint.dpdx),
+        vector(footprint.dpdy)
+    )
+}

@@ -1,0 +1,99 @@
+//! How many thresholds a motion below one pixel changes, against the closed form.
+
+use super::uniform::reject_outsiders;
+use super::{Claim, Conclusion, Trial};
+use crate::check::evidence::ComparedShare;
+use crate::check::sample::{footprint, general_scenes, moved, placement};
+use crate::check::tolerance::{POWER, SHIFT_SAMPLES, SHIFTS, SINGLE_LEVEL};
+use crate::check::{Evidence, Subject, Verdict};
+use crate::stats::{poisson_binomial, power, seed};
+use crate::threshold::footprint::Footprint;
+use crate::threshold::stability::change_probability;
+
+/// Share of thresholds that a translation along the screen changes.
+pub const TRANSLATE: Claim = Claim {
+    id: "stability.translate",
+    anchor: "§5 (sub-pixel translations), §5.4.1; closed form not in the paper",
+    statement: "a sub-pixel shift along screen x or y changes the share of thresholds that the size of the cells predicts",
+    expected: Verdict::Consistent,
+    run: translate,
+};
+
+fn translate(subject: &Subject<'_>, seed: u64) -> Trial {
+    let mut rng = seed::rng(TRANSLATE.id, seed);
+    let mut points = Vec::new();
+    let mut worst = (1.0, 0.0);
+    let (mut effect, mut detectable, mut n) = (0.0_f64, f64::INFINITY, 0_u64);
+    let mut tests = 0;
+    for scene in general_scenes() {
+        for along_x in [true, false] {
+            for shift in SHIFTS {
+                let (mut before, mut after) = (Vec::new(), Vec::new());
+                let (mut mean, mut variance) = (0.0, 0.0);
+                for _ in 0..SHIFT_SAMPLES {
+                    // A fresh place for every sample: the closed form is about phases that are all equally likely.
+                    let here = moved(&footprint(&scene, &mut rng), placement(&mut rng), subject.precision);
+                    let motion = if along_x { here.dpdx } else { here.dpdy } * shift;
+                    let there = moved(&here, motion, subject.precision);
+                    let probability = predicted(subject, &here, motion);
+                    mean += probability;
+                    variance += probability * (1.0 - probability);
+                    before.push(here);
+                    after.push(there);
+                }
+                let (old, new) = (subject.thresholds(&before), subject.thresholds(&after));
+                for (samples, values) in [(&before, &old), (&after, &new)] {
+                    if let Err(trial) = reject_outsiders(samples, values) {
+                        return trial;
+                    }
+                }
+                let changed = old.iter().zip(&new).filter(|(a, b)| a != b).count();
+                let test = poisson_binomial::sum_of_events(changed as u64, mean, variance);
+                if test.p < worst.0 {
+                    worst = (test.p, test.z);
+                }
+                let count = before.len() as f64;
+                let sigma = variance.sqrt() / count;
+                points.push(ComparedShare {
+                    series: format!("{}, along {}", scene.name, if along_x { "x" } else { "y" }),
+                    x: shift,
+                    measured: changed as f64 / count,
+                    predicted: mean / count,
+                    sigma,
+                });
+                effect = effect.max((changed as f64 - mean).abs() / count);
+                detectable = detectable.min(power::detectable_shift_z(sigma, SINGLE_LEVEL, POWER));
+                n += before.len() as u64;
+                tests += 1;
+            }
+        }
+    }
+    let largest = points
+        .iter()
+        .max_by(|a, b| (a.measured - a.predicted).abs().total_cmp(&(b.measured - b.predicted).abs()));
+    let seen = largest.map_or_else(String::new, |point| {
+        format!(
+            "{} by {} px: {:.4} of thresholds change, {:.4} are predicted",
+            point.series, point.x, point.measured, point.predicted
+        )
+    });
+    Trial {
+        conclusion: Conclusion::Probability((worst.0 * f64::from(tests)).min(1.0)),
+        statistic: Some(worst.1),
+        statistic_name: format!("z, worst of {tests}"),
+        n,
+        effect: Some(effect),
+        effect_name: "error in the share that changes",
+        detectable: Some(detectable),
+        seen,
+        evidence: Evidence::Comparison(points),
+    }
+}
+
+/// The probability that a motion takes a point out of its fine cell: the finer of the two grids decides, since the
+/// coarser one is a union of its cells.
+fn predicted(subject: &Subject<'_>, here: &Footprint<f64>, motion: glam::DVec3) -> f64 {
+    let nominal = subject.nominal(here);
+    let fine = nominal.pixel_scale.map(|scale| libm::exp2(libm::ceil(libm::log2(scale))));
+    change_probability(fine, motion.to_array())
+}

@@ -1,0 +1,215 @@
+//! The law of the threshold: uniform, whatever the weight and the surface, and only thanks to Eq. 2.
+
+use super::range::describe;
+use super::{Claim, Conclusion, Trial};
+use crate::check::evidence::NamedHistogram;
+use crate::check::sample::{general_scenes, independent};
+use crate::check::tolerance::{
+    BINS, DRAWS_A_PLACE, LEAST_GROUP, LERP_GROUPS, MARGINAL_SAMPLES, PLANE_SAMPLES, PLANES, POWER,
+    SINGLE_LEVEL,
+};
+use crate::check::{Evidence, Subject, Verdict};
+use crate::scene::Scene;
+use crate::stats::chi_square::{self, ChiSquare};
+use crate::stats::histogram::Histogram;
+use crate::stats::{ecdf, power, seed};
+use crate::threshold::footprint::Footprint;
+
+/// Pooled chi-square over surfaces in general position.
+pub const MARGINAL: Claim = Claim {
+    id: "uniform.marginal",
+    anchor: "§5, §5.4.2",
+    statement: "thresholds on surfaces in general position, pooled, are uniform on [0, 1)",
+    expected: Verdict::Consistent,
+    run: marginal,
+};
+
+/// Kolmogorov-Smirnov: the share of thresholds below alpha, for every alpha at once.
+pub const COVERAGE: Claim = Claim {
+    id: "uniform.coverage",
+    anchor: "§4 (expected visibility is alpha)",
+    statement: "for every alpha, a fragment of that alpha is kept with probability alpha",
+    expected: Verdict::Consistent,
+    run: coverage,
+};
+
+/// Chi-square within groups of the lerp factor.
+pub const BY_LERP_FACTOR: Claim = Claim {
+    id: "uniform.by_lerp_factor",
+    anchor: "Eq. 2",
+    statement: "thresholds are uniform at every lerp factor, on both sides of 1/2",
+    expected: Verdict::Consistent,
+    run: by_lerp_factor,
+};
+
+/// The same for the interpolated value: must be rejected, or Eq. 2 would have no reason.
+pub const WITHOUT_CDF: Claim = Claim {
+    id: "uniform.without_cdf",
+    anchor: "§5.4.2 (interpolating two uniform values)",
+    statement: "the interpolated value would be uniform without Eq. 2 (negative control: must be rejected)",
+    expected: Verdict::Rejected,
+    run: without_cdf,
+};
+
+/// Chi-square on single planes of constant z, summed: biases of the planes add up and do not cancel.
+pub const CONSTANT_Z: Claim = Claim {
+    id: "uniform.constant_z",
+    anchor: "§5.1 (hash3D), not in the paper",
+    statement: "thresholds on each single plane of constant z are uniform",
+    expected: Verdict::Consistent,
+    run: constant_z,
+};
+
+/// Samples of the marginal claims with their values, or the trial that ends the claim.
+fn marginal_samples(
+    subject: &Subject<'_>,
+    claim: &Claim,
+    seed: u64,
+) -> Result<(Vec<Footprint<f64>>, Vec<f64>), Trial> {
+    let mut rng = seed::rng(claim.id, seed);
+    let samples = independent(subject, &general_scenes(), MARGINAL_SAMPLES, DRAWS_A_PLACE, &mut rng);
+    let values = subject.thresholds(&samples);
+    reject_outsiders(&samples, &values)?;
+    Ok((samples, values))
+}
+
+/// Ends a claim whose samples are not all thresholds.
+pub(super) fn reject_outsiders(samples: &[Footprint<f64>], values: &[f64]) -> Result<(), Trial> {
+    let outside = |value: &&f64| !(0.0..=1.0).contains(*value);
+    match values.iter().position(|value| outside(&value)) {
+        None => Ok(()),
+        Some(first) => Err(Trial::no_thresholds(
+            values.iter().filter(outside).count(),
+            values.len(),
+            format!("first {}", describe(&samples[first], values[first])),
+        )),
+    }
+}
+
+fn histogram(values: impl IntoIterator<Item = f64>) -> Histogram {
+    let mut histogram = Histogram::new(BINS);
+    histogram.extend(values);
+    histogram
+}
+
+/// Tests one histogram; `None` if it has too few samples.
+fn uniformity(histogram: &Histogram) -> Option<ChiSquare> {
+    (histogram.total() >= LEAST_GROUP as u64).then(|| chi_square::uniform(histogram.counts()).ok()).flatten()
+}
+
+fn marginal(subject: &Subject<'_>, seed: u64) -> Trial {
+    let (_, values) = match marginal_samples(subject, &MARGINAL, seed) {
+        Ok(found) => found,
+        Err(trial) => return trial,
+    };
+    let pooled = histogram(values);
+    let tests: Vec<_> = uniformity(&pooled).into_iter().collect();
+    let evidence = Evidence::Histograms(vec![NamedHistogram {
+        name: "surfaces in general position".into(),
+        counts: pooled.counts().to_vec(),
+    }]);
+    Trial::worst_of(&tests, pooled.total(), "the pooled thresholds are not uniform".into(), evidence)
+}
+
+fn coverage(subject: &Subject<'_>, seed: u64) -> Trial {
+    let (_, mut values) = match marginal_samples(subject, &COVERAGE, seed) {
+        Ok(found) => found,
+        Err(trial) => return trial,
+    };
+    let pooled = histogram(values.iter().copied());
+    let n = values.len() as u64;
+    match ecdf::kolmogorov_smirnov(&mut values) {
+        Err(_) => Trial::without(Conclusion::Inconclusive, "the scenes gave no samples"),
+        Ok(distance) => Trial {
+            // The bound holds at every n and for atoms too, where the asymptotic law does not.
+            conclusion: Conclusion::Probability(distance.dkwm),
+            statistic: Some(distance.d),
+            statistic_name: "Kolmogorov-Smirnov distance".into(),
+            n,
+            effect: Some(distance.d),
+            effect_name: "largest error in coverage",
+            detectable: Some(power::detectable_distance_ks(n, SINGLE_LEVEL, POWER)),
+            seen: format!("coverage is off by up to {:.2} %", 100.0 * distance.d),
+            evidence: Evidence::Histograms(vec![NamedHistogram {
+                name: "surfaces in general position".into(),
+                counts: pooled.counts().to_vec(),
+            }]),
+        },
+    }
+}
+
+fn by_lerp_factor(subject: &Subject<'_>, seed: u64) -> Trial {
+    match marginal_samples(subject, &BY_LERP_FACTOR, seed) {
+        Ok((samples, values)) => uniformity_by_lerp_factor(subject, &samples, &values),
+        Err(trial) => trial,
+    }
+}
+
+fn without_cdf(subject: &Subject<'_>, seed: u64) -> Trial {
+    let mut rng = seed::rng(WITHOUT_CDF.id, seed);
+    let samples = independent(subject, &general_scenes(), MARGINAL_SAMPLES, DRAWS_A_PLACE, &mut rng);
+    match subject.interpolated(&samples) {
+        None => Trial::without(Conclusion::NotApplicable, "the subject does not tell its interpolated value"),
+        Some(values) => uniformity_by_lerp_factor(subject, &samples, &values),
+    }
+}
+
+fn uniformity_by_lerp_factor(subject: &Subject<'_>, samples: &[Footprint<f64>], values: &[f64]) -> Trial {
+    let mut groups = vec![Histogram::new(BINS); LERP_GROUPS];
+    for (sample, &value) in samples.iter().zip(values) {
+        let lerp_factor = subject.nominal(sample).lerp_factor;
+        let group = ((lerp_factor * LERP_GROUPS as f64) as usize).min(LERP_GROUPS - 1);
+        groups[group].add(value);
+    }
+    let name = |group: usize| {
+        let edge = |at: usize| at as f64 / LERP_GROUPS as f64;
+        format!("lerp factor {:.4} to {:.4}", edge(group), edge(group + 1))
+    };
+    let tested: Vec<(usize, ChiSquare)> =
+        groups.iter().enumerate().filter_map(|(group, counts)| Some((group, uniformity(counts)?))).collect();
+    let worst = tested.iter().min_by(|a, b| a.1.p.total_cmp(&b.1.p));
+    let seen = worst.map_or_else(String::new, |(group, test)| {
+        format!("{}: chi-square {:.0} over {} dof", name(*group), test.statistic, test.dof)
+    });
+    let evidence = tested
+        .iter()
+        .map(|&(group, _)| NamedHistogram { name: name(group), counts: groups[group].counts().to_vec() })
+        .collect();
+    let tests: Vec<_> = tested.iter().map(|&(_, test)| test).collect();
+    Trial::worst_of(&tests, tests.iter().map(|test| test.n).sum(), seen, Evidence::Histograms(evidence))
+}
+
+fn constant_z(subject: &Subject<'_>, seed: u64) -> Trial {
+    let mut rng = seed::rng(CONSTANT_Z.id, seed);
+    let wall: Vec<Scene> = Scene::all().into_iter().filter(|scene| scene.name == "wall").collect();
+    let mut tests: Vec<ChiSquare> = Vec::new();
+    let mut evidence = Vec::new();
+    let mut worst_bias = 0.0_f64;
+    for _ in 0..PLANES {
+        // One place for all of a plane's samples: each plane has one z.
+        let samples = independent(subject, &wall, PLANE_SAMPLES, usize::MAX, &mut rng);
+        let values = subject.thresholds(&samples);
+        if let Err(trial) = reject_outsiders(&samples, &values) {
+            return trial;
+        }
+        let counts = histogram(values);
+        tests.extend(uniformity(&counts));
+        let below_half: u64 = counts.counts()[..BINS / 2].iter().sum();
+        let bias = below_half as f64 / counts.total() as f64 - 0.5;
+        if bias.abs() > worst_bias.abs() {
+            worst_bias = bias;
+        }
+        let z = samples.first().map_or(f64::NAN, |sample| sample.position.z);
+        evidence.push(NamedHistogram { name: format!("z = {z:.3}"), counts: counts.counts().to_vec() });
+    }
+    let Some(sum) =
+        tests.into_iter().reduce(|a, b| ChiSquare::new(a.statistic + b.statistic, a.dof + b.dof, a.n + b.n))
+    else {
+        return Trial::without(Conclusion::Inconclusive, "the wall gave no samples");
+    };
+    let seen = format!(
+        "each plane has a bias of its own: the share of thresholds up to 1/2 is off by up to {:+.2} %",
+        100.0 * worst_bias
+    );
+    Trial::worst_of(&[sum], sum.n, seen, Evidence::Histograms(evidence))
+}

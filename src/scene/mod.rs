@@ -1,0 +1,11 @@
+//! What is looked at: a pinhole camera, surfaces with a closed form, and the footprints that the two make.
+//!
+//! What never lives here: thresholds and their statistics, drawing, files.
+
+pub mod camera;
+pub mod gallery;
+pub mod rectangle;
+
+pub use camera::{Camera, Ray};
+pub use gallery::Scene;
+pub use rectangle::Rectangle;

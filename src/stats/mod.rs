@@ -1,0 +1,42 @@
+//! Statistics: the tests, bounds and error-rate control that turn samples into p-values.
+//!
+//! Everything here is `f64` arithmetic over slices, counts and sums. A p-value is always a *true tail*: it is
+//! computed as a tail, never as one minus a distribution function, because a family of hundreds of tests
+//! judges at levels near 1e-9. Each p-value function is itself tested, for its value against references of
+//! high precision, for its calibration (uniform p-values on an ideal source) and for its teeth (it rejects a
+//! broken source).
+//!
+//! | module | answers |
+//! |---|---|
+//! | [`histogram`] | how often did each equal part of `[0, 1]` come up? |
+//! | [`chi_square`] | do counts follow given probabilities, each other, or a product law? |
+//! | [`ecdf`] | how far is a sample from uniform (Kolmogorov-Smirnov, and a bound for every size)? |
+//! | [`anderson_darling`] | the same, with the weight on the ends of the interval |
+//! | [`normal`] | tails and quantile of the normal law |
+//! | [`binomial`] | exact tails of binomial and Poisson counts, and the Clopper-Pearson interval |
+//! | [`poisson_binomial`] | does a count of unequal but independent events match their probabilities? |
+//! | [`correlation`] | are two sequences related? |
+//! | [`multiplicity`] | what is a p-value worth among many? |
+//! | [`power`] | what is the smallest defect that a test can see? |
+//! | [`seed`] | random numbers that are fixed by a name, never by looking at the result |
+//!
+//! What never lives here: thresholds, hashes, textures or any other subject of a test; significance levels
+//! and tolerances; files, text output and serialization; estimates without a stated law.
+
+pub mod anderson_darling;
+pub mod binomial;
+pub mod chi_square;
+pub mod correlation;
+pub mod ecdf;
+pub mod error;
+pub mod histogram;
+pub mod multiplicity;
+pub mod normal;
+pub mod poisson_binomial;
+pub mod power;
+pub mod seed;
+
+#[cfg(test)]
+mod calibration;
+
+pub use error::StatsError;

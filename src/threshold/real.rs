@@ -1,0 +1,358 @@
+//! The scalar that every listing is written over: `f32` or `f64` with the semantics of GLSL.
+//!
+//! Three things differ from Rust's own floats. [`Real::fract`] is `x - floor(x)`, so that it is in [0, 1] for
+//! negative arguments too (Rust's truncates). [`Real::min`] and [`Real::max`] are GLSL's: the first argument wins
+//! when the comparison is false, so a NaN in the first place stays and a NaN in the second place is dropped. And the
+//! three transcendentals are portable: for `f32` they are correctly rounded, for `f64` they are those of the pure
+//! Rust `libm` crate. Both give the same bits on every machine.
+//!
+//! Together with IEEE arithmetic in the order of the listing and without contraction, this fixes one meaning for
+//! every `f32` threshold, the *reference semantics R32*.
+
+use core::fmt::{Debug, Display};
+use core::ops::{Add, Div, Mul, Neg, Sub};
+use core::str::FromStr;
+
+mod sealed {
+    pub trait Sealed {}
+    impl Sealed for f32 {}
+    impl Sealed for f64 {}
+}
+
+/// A floating-point type with GLSL semantics: `f32` or `f64`, and no other.
+pub trait Real:
+    sealed::Sealed
+    + Copy
+    + Debug
+    + Default
+    + Display
+    + FromStr
+    + PartialEq
+    + PartialOrd
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + Send
+    + Sync
+    + 'static
+{
+    /// glam's vector of three components of this type.
+    type Vec3: Copy + Debug + PartialEq + From<[Self; 3]> + Into<[Self; 3]> + Send + Sync + 'static;
+
+    /// `"f32"` or `"f64"`.
+    const NAME: &'static str;
+
+    /// Rounds to nearest, ties to even.
+    #[must_use]
+    fn from_f64(value: f64) -> Self;
+
+    /// Converts without loss.
+    #[must_use]
+    fn to_f64(self) -> f64;
+
+    /// Returns the low 32 bits of an integral value in two's complement; a value beyond the range of `i64` saturates
+    /// there, NaN gives 0.
+    #[must_use]
+    fn to_word(self) -> u32;
+
+    /// Converts an integral value to `i32`, saturating; NaN gives 0.
+    #[must_use]
+    fn to_i32(self) -> i32;
+
+    /// Returns the largest integral value that is not above `self`.
+    #[must_use]
+    fn floor(self) -> Self;
+
+    /// Returns the smallest integral value that is not below `self`.
+    #[must_use]
+    fn ceil(self) -> Self;
+
+    /// Clears the sign.
+    #[must_use]
+    fn abs(self) -> Self;
+
+    /// Returns the correctly rounded square root; NaN below zero.
+    #[must_use]
+    fn sqrt(self) -> Self;
+
+    /// Returns the sine of an angle in radians.
+    ///
+    /// `f32`: correctly rounded for |x| up to 2^24 (see [`sin_f32`]). `f64`: libm's, below 1 ULP.
+    #[must_use]
+    fn sin(self) -> Self;
+
+    /// Returns the logarithm to base two; NaN below zero, -inf at zero.
+    ///
+    /// `f32`: correctly rounded for every argument (see [`log2_f32`]). `f64`: libm's, below 1 ULP.
+    #[must_use]
+    fn log2(self) -> Self;
+
+    /// Returns two to the power of `self`; exact for integral arguments in range.
+    ///
+    /// `f32`: correctly rounded for every argument (see [`exp2_f32`]). `f64`: libm's, below 1 ULP.
+    #[must_use]
+    fn exp2(self) -> Self;
+
+    /// Returns true for NaN.
+    #[must_use]
+    fn is_nan(self) -> bool;
+
+    /// Returns true for anything but NaN and the infinities.
+    #[must_use]
+    fn is_finite(self) -> bool;
+
+    /// Returns `self - floor(self)`, GLSL's `fract`.
+    ///
+    /// The value is in [0, 1]: rounding brings it to exactly 1 for a negative argument closer to zero than half an
+    /// ULP of one.
+    #[must_use]
+    fn fract(self) -> Self {
+        self - self.floor()
+    }
+
+    /// Returns `other` where `other < self`, else `self` (GLSL's `min`; a NaN in `self` stays).
+    #[must_use]
+    fn min(self, other: Self) -> Self {
+        if other < self { other } else { self }
+    }
+
+    /// Returns `other` where `self < other`, else `self` (GLSL's `max`; a NaN in `self` stays).
+    #[must_use]
+    fn max(self, other: Self) -> Self {
+        if self < other { other } else { self }
+    }
+
+    /// Returns `min(max(self, low), high)`, GLSL's `clamp`; NaN stays NaN.
+    #[must_use]
+    fn clamp(self, low: Self, high: Self) -> Self {
+        Real::min(Real::max(self, low), high)
+    }
+}
+
+/// Implements the part of [`Real`] that is the same text for both types.
+macro_rules! shared_items {
+    ($real:ty, $vec3:ty) => {
+        type Vec3 = $vec3;
+        const NAME: &'static str = stringify!($real);
+
+        fn to_word(self) -> u32 {
+            self as i64 as u32
+        }
+        fn to_i32(self) -> i32 {
+            self as i32
+        }
+        fn floor(self) -> Self {
+            <$real>::floor(self)
+        }
+        fn ceil(self) -> Self {
+            <$real>::ceil(self)
+        }
+        fn abs(self) -> Self {
+            <$real>::abs(self)
+        }
+        fn sqrt(self) -> Self {
+            <$real>::sqrt(self)
+        }
+        fn is_nan(self) -> bool {
+            <$real>::is_nan(self)
+        }
+        fn is_finite(self) -> bool {
+            <$real>::is_finite(self)
+        }
+    };
+}
+
+impl Real for f32 {
+    shared_items!(f32, glam::Vec3);
+
+    fn from_f64(value: f64) -> Self {
+        value as f32
+    }
+    fn to_f64(self) -> f64 {
+        f64::from(self)
+    }
+    fn sin(self) -> Self {
+        sin_f32(self)
+    }
+    fn log2(self) -> Self {
+        log2_f32(self)
+    }
+    fn exp2(self) -> Self {
+        exp2_f32(self)
+    }
+}
+
+impl Real for f64 {
+    shared_items!(f64, glam::DVec3);
+
+    fn from_f64(value: f64) -> Self {
+        value
+    }
+    fn to_f64(self) -> f64 {
+        self
+    }
+    fn sin(self) -> Self {
+        libm::sin(self)
+    }
+    fn log2(self) -> Self {
+        libm::log2(self)
+    }
+    fn exp2(self) -> Self {
+        libm::exp2(self)
+    }
+}
+
+/// The largest |x| for which [`sin_f32`] takes its own polynomial, and up to which it is proved correctly rounded.
+pub const SIN_F32_DOMAIN: f32 = 16_777_216.0;
+
+/// Returns the sine of `x` radians, correctly rounded for |x| <= [`SIN_F32_DOMAIN`].
+///
+/// The argument is counted in half-turns in `f64`: the first factor has 29 bits, so its product with an `f32` is
+/// exact, and so is the difference to the nearest integer; a second factor adds the rest of 1/pi. An odd polynomial
+/// of degree 15 then gives sin(pi f), and the parity of the integer its sign. Beyond the domain the value is the
+/// `f64` sine rounded to `f32`, which is portable but not proved. `sin_f32(-0.0)` is -0.0; NaN and the infinities
+/// give NaN.
+///
+/// Not in the paper: GLSL and WGSL leave the accuracy of `sin` at such arguments open.
+#[must_use]
+pub fn sin_f32(x: f32) -> f32 {
+    /// The leading 29 bits of 1/pi.
+    const HALF_TURNS_HIGH: f64 = f64::from_bits(0x3fd4_5f30_6e00_0000);
+    /// 1/pi less its leading 29 bits.
+    const HALF_TURNS_LOW: f64 = f64::from_bits(0xbdeb_1bbe_ad60_3d8b);
+    /// Adding and subtracting 1.5 * 2^52 rounds to the nearest integer, which the low bits of the sum then hold.
+    const TO_INTEGER: f64 = 6_755_399_441_055_744.0;
+    const SINE_OF_HALF_TURNS: [f64; 8] = [
+        f64::from_bits(0x4009_21fb_5444_2d16),
+        f64::from_bits(0xc014_abbc_e625_bd40),
+        f64::from_bits(0x4004_66bc_6775_0710),
+        f64::from_bits(0xbfe3_2d2c_ce14_bd2c),
+        f64::from_bits(0x3fb5_0783_2391_fc0f),
+        f64::from_bits(0xbf7e_3061_dc9d_6e7a),
+        f64::from_bits(0x3f3e_89bd_5885_1811),
+        f64::from_bits(0xbef6_24e8_9f86_3665),
+    ];
+    if x.abs() <= SIN_F32_DOMAIN && x != 0.0 {
+        let wide = f64::from(x);
+        let half_turns = wide * HALF_TURNS_HIGH;
+        let shifted = half_turns + TO_INTEGER;
+        let rest = (half_turns - (shifted - TO_INTEGER)) + wide * HALF_TURNS_LOW;
+        let squared = rest * rest;
+        let sine = rest * horner(squared, &SINE_OF_HALF_TURNS);
+        let sign = (shifted.to_bits() & 1) << 63;
+        f64::from_bits(sine.to_bits() ^ sign) as f32
+    } else if x == 0.0 {
+        x
+    } else {
+        libm::sin(f64::from(x)) as f32
+    }
+}
+
+/// Returns the logarithm of `x` to base two, correctly rounded for every `x`.
+///
+/// Computed in `f64` as `e + s P(s^2)` with `x = 2^e m`, `m` in [sqrt(1/2), sqrt 2) and `s = (m - 1)/(m + 1)`; exact
+/// at every power of two, subnormal ones too. `log2_f32(0.0)` is -inf, a negative argument or NaN gives NaN.
+///
+/// Not in the paper: GLSL and WGSL allow 3 ULP here.
+#[must_use]
+pub fn log2_f32(x: f32) -> f32 {
+    const SQRT_HALF_BITS: u64 = 0x3fe6_a09e_667f_3bcd;
+    const COEFFICIENTS: [f64; 9] = [
+        f64::from_bits(0x4007_1547_652b_82fe),
+        f64::from_bits(0x3fee_c709_dc3a_03fc),
+        f64::from_bits(0x3fe2_776c_50ef_9fcc),
+        f64::from_bits(0x3fda_6176_2a70_85b9),
+        f64::from_bits(0x3fd4_84b1_4487_386e),
+        f64::from_bits(0x3fd0_c9a5_991b_72d8),
+        f64::from_bits(0x3fcc_6a29_79e0_3137),
+        f64::from_bits(0x3fc8_7740_3989_7f75),
+        f64::from_bits(0x3fc8_7d8e_bae9_9ae1),
+    ];
+    if x > 0.0 && x < f32::INFINITY {
+        let bits = f64::from(x).to_bits();
+        let exponent = (bits.wrapping_sub(SQRT_HALF_BITS) as i64) >> 52;
+        let m = f64::from_bits(bits.wrapping_sub((exponent << 52) as u64));
+        let s = (m - 1.0) / (m + 1.0);
+        (exponent as f64 + s * horner(s * s, &COEFFICIENTS)) as f32
+    } else if x == 0.0 {
+        f32::NEG_INFINITY
+    } else if x > 0.0 {
+        x
+    } else {
+        f32::NAN
+    }
+}
+
+/// Returns two to the power of `x`, correctly rounded for every `x`; 0 below and infinity above the range of `f32`.
+///
+/// The `f64` value of libm rounded to `f32` is wrong for two arguments of all; they are listed.
+///
+/// Not in the paper: WGSL allows 3 + 2|x| ULP here.
+#[must_use]
+pub fn exp2_f32(x: f32) -> f32 {
+    match x.to_bits() {
+        0x3b42_9d37 => f32::from_bits(0x3f80_4385),
+        0xbcf3_a937 => f32::from_bits(0x3f7a_c6b1),
+        _ => libm::exp2(f64::from(x)) as f32,
+    }
+}
+
+/// Evaluates `c0 + x (c1 + x (c2 + ...))` without contraction.
+fn horner(x: f64, coefficients: &[f64]) -> f64 {
+    coefficients.iter().rev().fold(0.0, |sum, &c| sum * x + c)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn fract_counts_up_from_the_floor() {
+        assert_eq!(Real::fract(-0.25_f32), 0.75);
+        assert_eq!(Real::fract(2.5_f64), 0.5);
+        assert_eq!(Real::fract(-1.0e-9_f32), 1.0);
+    }
+
+    #[test]
+    fn min_max_and_clamp_are_those_of_glsl() {
+        assert!(Real::max(f32::NAN, 1.0).is_nan());
+        assert_eq!(Real::max(1.0, f32::NAN), 1.0);
+        assert!(Real::clamp(f64::NAN, 0.0, 1.0).is_nan());
+        assert_eq!(Real::clamp(-3.0_f64, 1.0e-6, 1.0), 1.0e-6);
+    }
+
+    #[test]
+    fn logarithm_and_power_are_exact_at_powers_of_two() {
+        for exponent in -149..128 {
+            let power = libm::exp2(f64::from(exponent)) as f32;
+            assert_eq!(log2_f32(power), exponent as f32);
+            assert_eq!(exp2_f32(exponent as f32), power);
+        }
+        for exponent in -1022..1024 {
+            let power = f64::from_bits(((exponent + 1023) as u64) << 52);
+            assert_eq!(Real::log2(power), f64::from(exponent));
+            assert_eq!(Real::exp2(f64::from(exponent)), power);
+        }
+    }
+
+    #[test]
+    fn special_arguments() {
+        assert_eq!(sin_f32(-0.0).to_bits(), (-0.0_f32).to_bits());
+        assert!(sin_f32(f32::INFINITY).is_nan() && sin_f32(f32::NAN).is_nan());
+        assert_eq!(log2_f32(0.0), f32::NEG_INFINITY);
+        assert_eq!(log2_f32(-0.0), f32::NEG_INFINITY);
+        assert_eq!(log2_f32(f32::INFINITY), f32::INFINITY);
+        assert!(log2_f32(-1.0).is_nan() && log2_f32(f32::NAN).is_nan());
+        assert_eq!(exp2_f32(128.0), f32::INFINITY);
+        assert_eq!(exp2_f32(-151.0), 0.0);
+    }
+
+    #[test]
+    fn to_word_is_twos_complement() {
+        assert_eq!((-1.0_f32).to_word(), u32::MAX);
+        assert_eq!(4_294_967_296.0_f64.to_word(), 0);
+        assert_eq!(f32::NAN.to_word(), 0);
+    }
+}

@@ -1,0 +1,152 @@
+//! Every claim rejects a threshold that is broken in just its way, and an ideal one passes them all.
+
+use hashed_alpha::check::claims::{self, Claim};
+use hashed_alpha::check::{Outcome, Subject, Verdict, run, subject::Precision};
+use hashed_alpha::threshold::cdf;
+use hashed_alpha::threshold::footprint::Footprint;
+use hashed_alpha::threshold::hash::{Cell, Hash, HashKind, open_lattice};
+use hashed_alpha::threshold::hashed::HashedAlpha;
+use hashed_alpha::threshold::real::Real;
+use hashed_alpha::threshold::two_scale::Variant;
+use sha2::{Digest, Sha256};
+
+/// A keyed cryptographic hash of the cell and its octave: what every claim must let pass.
+#[derive(Clone, Copy)]
+struct Ideal;
+
+impl<R: Real> Hash<R> for Ideal {
+    fn hash(&self, cell: &Cell<R>) -> R {
+        let mut digest = Sha256::new_with_prefix(b"ideal source");
+        cell.words().iter().for_each(|word| digest.update(word.to_le_bytes()));
+        let digest = digest.finalize();
+        open_lattice(u32::from_le_bytes([digest[0], digest[1], digest[2], digest[3]]))
+    }
+}
+
+const SOUND: HashedAlpha<Ideal> = sound(Ideal);
+
+/// Listing 1 with Eq. 2 in its stable form and a hash of one's own.
+const fn sound<H>(hash: H) -> HashedAlpha<H> {
+    HashedAlpha { variant: Variant::Isotropic, hash, hash_scale: 1.0, form: cdf::CdfForm::Stable }
+}
+
+fn claims_that_fail(outcomes: &[Outcome]) -> Vec<&'static str> {
+    outcomes.iter().filter(|outcome| !outcome.as_expected()).map(|outcome| outcome.check).collect()
+}
+
+fn claim_named(id: &str) -> Claim {
+    claims::ALL.into_iter().find(|claim| claim.id == id).expect("a claim of that name")
+}
+
+/// Tries a specimen and asserts that `claim` rejects it.
+fn assert_rejected_by(claim: &str, specimen: impl Fn(&Footprint<f64>) -> f64 + Send + Sync) {
+    let subject = Subject::new("specimen", Precision::F64, Variant::Isotropic, specimen);
+    let [outcome] = &run(&[claim_named(claim)], &[subject], 0, || {})[..] else {
+        panic!("one claim, one outcome")
+    };
+    assert_eq!(outcome.verdict, Verdict::Rejected, "{outcome:?}");
+    assert!(outcome.finding.as_ref().is_some_and(|finding| !finding.is_empty()), "{outcome:?}");
+}
+
+#[test]
+fn an_ideal_source_passes_every_claim() {
+    for variant in [Variant::Isotropic, Variant::Anisotropic] {
+        let ideal = HashedAlpha { variant, ..SOUND };
+        for precision in Precision::ALL {
+            let subject = Subject::hashed("ideal", precision, ideal);
+            let mut failed = claims_that_fail(&run(&claims::ALL, &[subject], 0, || {}));
+            if variant == Variant::Anisotropic {
+                // Listing 2 divides by zero on axis-aligned planes, whatever hash it uses.
+                failed.retain(|claim| !["range", "uniform.constant_z"].contains(claim));
+            }
+            assert!(failed.is_empty(), "{variant} {precision}: {failed:?}");
+        }
+    }
+}
+
+#[test]
+fn without_the_cdf_thresholds_depend_on_the_lerp_factor() {
+    assert_rejected_by("uniform.by_lerp_factor", |footprint| SOUND.trace(footprint).interpolated);
+}
+
+#[test]
+fn one_derivative_used_twice_changes_stability() {
+    assert_rejected_by("stability.translate", |footprint| {
+        SOUND.threshold(&Footprint { dpdy: footprint.dpdx, ..*footprint })
+    });
+}
+
+#[test]
+fn both_octaves_at_one_scale_are_not_uniform_and_too_stable() {
+    let same_scale = |footprint: &Footprint<f64>| {
+        let found = Variant::Isotropic.two_scale(footprint, 1.0);
+        let hash: f64 = Ideal.hash(&found.floor_cell);
+        let interpolated = (1.0 - found.lerp_factor) * hash + found.lerp_factor * hash;
+        cdf::cdf(interpolated, found.lerp_factor).max(1.0e-6)
+    };
+    assert_rejected_by("uniform.by_lerp_factor", same_scale);
+    assert_rejected_by("stability.translate", same_scale);
+}
+
+#[test]
+fn a_threshold_of_zero_is_out_of_range() {
+    assert_rejected_by(
+        "range",
+        |footprint| if footprint.position.x > 11.0 { 0.0 } else { SOUND.threshold(footprint) },
+    );
+}
+
+#[test]
+fn a_gamma_curve_is_not_uniform() {
+    let gamma = |footprint: &Footprint<f64>| libm::pow(SOUND.threshold(footprint), 1.1);
+    assert_rejected_by("uniform.marginal", gamma);
+    assert_rejected_by("uniform.coverage", gamma);
+}
+
+#[test]
+fn a_hash_with_few_values_has_a_bias_on_each_plane() {
+    // As the sine hash in f32: the plane is hashed into few values, each of which is mixed with z.
+    assert_rejected_by("uniform.constant_z", |footprint| sound(FewValues).threshold(footprint));
+}
+
+/// Hashes x and y into 4096 values before z comes in.
+#[derive(Clone, Copy)]
+struct FewValues;
+
+impl<R: Real> Hash<R> for FewValues {
+    fn hash(&self, cell: &Cell<R>) -> R {
+        let [x, y, _] = cell.index.into();
+        let inner: R = HashKind::Mm4.hash(&Cell { index: [x, y, R::from_f64(0.0)].into(), octave: 0 });
+        let index = [(inner * R::from_f64(4096.0)).floor(), R::from_f64(0.0), cell.index.into()[2]];
+        HashKind::Mm4.hash(&Cell { index: index.into(), octave: 0 })
+    }
+}
+
+#[test]
+fn cells_that_share_a_hash_in_twos_depend_on_their_neighbours() {
+    assert_rejected_by("independence.neighbours", |footprint| sound(Paired).threshold(footprint));
+}
+
+/// Drops the lowest bit of x.
+#[derive(Clone, Copy)]
+struct Paired;
+
+impl<R: Real> Hash<R> for Paired {
+    fn hash(&self, cell: &Cell<R>) -> R {
+        let [x, y, z] = cell.index.into();
+        let half = (x * R::from_f64(0.5)).floor();
+        Ideal.hash(&Cell { index: [half, y, z].into(), octave: cell.octave })
+    }
+}
+
+#[test]
+fn the_negative_control_notices_a_join_that_needs_no_cdf() {
+    // One scale and one hash: the value is uniform as it is.
+    let single = HashedAlpha { variant: Variant::Single, ..SOUND };
+    let subject = Subject::hashed("single", Precision::F64, single);
+    let [control] = &run(&[claim_named("uniform.without_cdf")], &[subject], 0, || {})[..] else {
+        panic!("one outcome")
+    };
+    assert_eq!(control.verdict, Verdict::Consistent);
+    assert!(!control.as_expected());
+}
