@@ -2,6 +2,8 @@
 #![deny(missing_docs)]
 
 pub mod check;
+#[cfg(feature = "plots")]
+pub mod report;
 pub mod scene;
 pub mod stats;
 pub mod threshold;

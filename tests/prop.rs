@@ -6,6 +6,7 @@ use hashed_alpha::threshold::cdf::{cdf, cdf_literal, density, quantile};
 use hashed_alpha::threshold::footprint::Footprint;
 use hashed_alpha::threshold::hash::{HashKind, sine};
 use hashed_alpha::threshold::hashed::{HashedAlpha, SMALLEST_THRESHOLD};
+use hashed_alpha::threshold::robust::{Join, Repairs, Robust, scales};
 use hashed_alpha::threshold::two_scale::Variant;
 use proptest::prelude::*;
 
@@ -103,6 +104,43 @@ proptest! {
             prop_assert!((SMALLEST_THRESHOLD..=1.0).contains(&double), "{double}");
             prop_assert!((SMALLEST_THRESHOLD as f32..=1.0).contains(&single), "{single}");
         }
+    }
+
+    #[test]
+    fn the_robust_threshold_is_total_in_f32(bits in prop::array::uniform9(any::<u32>()), hash_scale in any::<u64>(), which in 0..6_usize) {
+        let [px, py, pz, xx, xy, xz, yx, yy, yz] = bits.map(f32::from_bits);
+        let footprint = Footprint::<f32> {
+            position: glam::vec3(px, py, pz), dpdx: glam::vec3(xx, xy, xz), dpdy: glam::vec3(yx, yy, yz),
+        };
+        let variant = [Variant::Isotropic, Variant::Anisotropic][which % 2];
+        for hash_scale in [1.0, f64::from_bits(hash_scale)] {
+            let robust = Robust { join: Join::ALL[which / 2], hash_scale, ..Robust::new(variant) };
+            if let Ok(threshold) = robust.threshold(&footprint) {
+                prop_assert!(threshold > 0.0 && threshold <= 1.0, "{threshold} for {footprint:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_robust_threshold_is_total_in_f64(bits in prop::array::uniform9(any::<u64>()), hash_scale in any::<u64>(), which in 0..6_usize) {
+        let [px, py, pz, xx, xy, xz, yx, yy, yz] = bits.map(f64::from_bits);
+        let footprint = Footprint::<f64> { position: dvec3(px, py, pz), dpdx: dvec3(xx, xy, xz), dpdy: dvec3(yx, yy, yz) };
+        let variant = [Variant::Isotropic, Variant::Anisotropic][which % 2];
+        for hash_scale in [1.0, f64::from_bits(hash_scale)] {
+            let robust = Robust { join: Join::ALL[which / 2], hash_scale, ..Robust::new(variant) };
+            if let Ok(threshold) = robust.threshold(&footprint) {
+                prop_assert!(threshold > 0.0 && threshold <= 1.0, "{threshold} for {footprint:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_new_coarse_cell_is_a_new_fine_cell(here in vector(1000.0), motion in vector(0.01), octave in -4..8_i32) {
+        let cells = |position: DVec3| {
+            [0, 1].map(|finer| scales::cell::<f64>(position, [octave + finer; 3], Repairs::ALL).index)
+        };
+        let ([coarse, fine], [coarse_after, fine_after]) = (cells(here), cells(here + motion));
+        prop_assert!(coarse == coarse_after || fine != fine_after, "{here} {motion}");
     }
 
     #[test]

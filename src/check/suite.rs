@@ -25,7 +25,7 @@ pub fn run(
         .par_iter()
         .with_max_len(1)
         .map(|(subject, claim)| {
-            let trial = (claim.run)(subject, seed);
+            let trial = (claim.run)(subject, seed).unwrap_or_else(|ended| *ended);
             finished();
             trial
         })

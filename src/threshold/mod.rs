@@ -8,17 +8,24 @@
 //! | [`two_scale`] | §5.4.1, §5.4.2, Listings 1 and 2 up to `lerpFactor` |
 //! | [`cdf`] | Eq. 2 |
 //! | [`hashed`], [`stochastic`], [`fixed`] | where the threshold comes from: §5-6, §4, §1 |
+//! | [`robust`] | Listings 1 and 2 with every repair (not in the paper); [`normal`] serves its copula join |
+//! | [`fade_in`], [`stratify`], [`coverage`] | what follows the hash: §7.1, §7.2.3, §8 |
 //! | [`stability`] | closed forms for how often a threshold changes under motion (not in the paper) |
 //!
 //! What never lives here: statistics, files, scenes, allocation per sample. Nothing in this wing imports another.
 
 pub mod cdf;
+pub mod coverage;
+pub mod fade_in;
 pub mod fixed;
 pub mod footprint;
 pub mod hash;
 pub mod hashed;
 pub mod named;
+pub mod normal;
 pub mod real;
+pub mod robust;
 pub mod stability;
 pub mod stochastic;
+pub mod stratify;
 pub mod two_scale;

@@ -1,7 +1,7 @@
 //! Thresholds of different cells have nothing to do with each other.
 
 use super::uniform::reject_outsiders;
-use super::{Claim, Trial};
+use super::{Attempt, Claim, Trial};
 use crate::check::sample::{UsedCells, footprint, general_scenes, moved, placement};
 use crate::check::tolerance::{DRAWS_A_PLACE, DRAWS_A_SAMPLE, NEIGHBOUR_PAIRS, PAIR_BINS};
 use crate::check::{Evidence, Subject, Verdict};
@@ -18,7 +18,7 @@ pub const NEIGHBOURS: Claim = Claim {
     run: neighbours,
 };
 
-fn neighbours(subject: &Subject<'_>, seed: u64) -> Trial {
+fn neighbours(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
     let mut rng = seed::rng(NEIGHBOURS.id, seed);
     let scenes = general_scenes();
     let mut used = UsedCells::default();
@@ -44,14 +44,12 @@ fn neighbours(subject: &Subject<'_>, seed: u64) -> Trial {
             }
         }
         let values = subject.thresholds(&pairs);
-        if let Err(trial) = reject_outsiders(&pairs, &values) {
-            return trial;
-        }
+        reject_outsiders(&pairs, &values)?;
         let table = correlation::pair_table(values.chunks_exact(2).map(|pair| (pair[0], pair[1])), PAIR_BINS);
         pooled.iter_mut().zip(&table).for_each(|(sum, count)| *sum += count);
         tests.extend(chi_square::independence(&table, PAIR_BINS));
     }
     let n = pooled.iter().sum();
     let seen = "thresholds of neighbouring cells depend on each other".into();
-    Trial::worst_of(&tests, n, seen, Evidence::Pairs { side: PAIR_BINS, counts: pooled })
+    Ok(Trial::worst_of(&tests, n, seen, Evidence::Pairs { side: PAIR_BINS, counts: pooled }))
 }

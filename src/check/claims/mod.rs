@@ -21,8 +21,9 @@ pub struct Claim {
     pub statement: &'static str,
     /// What a sound subject answers: [`Verdict::Rejected`] for a negative control.
     pub expected: Verdict,
-    /// Tries the claim on a subject with inputs that follow from the identifier and the seed.
-    pub run: fn(&Subject<'_>, u64) -> Trial,
+    /// Tries the claim on a subject with inputs that follow from the identifier and the seed; an error is a trial that
+    /// ended before its statistic.
+    pub run: fn(&Subject<'_>, u64) -> Attempt<Trial>,
 }
 
 /// Every claim, in the order of the report.
@@ -36,6 +37,9 @@ pub const ALL: [Claim; 8] = [
     independence::NEIGHBOURS,
     stability::TRANSLATE,
 ];
+
+/// What a trial reached, or the trial that ended it early.
+pub type Attempt<T> = Result<T, Box<Trial>>;
 
 /// What a trial says before other trials are taken into account.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,6 +1,6 @@
 //! The range of the threshold, on every surface, with derivatives as they are and as a GPU takes them.
 
-use super::{Claim, Conclusion, Trial};
+use super::{Attempt, Claim, Conclusion, Trial};
 use crate::check::sample::{moved, placement};
 use crate::check::tolerance::RANGE_RESOLUTION;
 use crate::check::{Evidence, Subject, Verdict};
@@ -18,7 +18,7 @@ pub const RANGE: Claim = Claim {
     run: range,
 };
 
-fn range(subject: &Subject<'_>, seed: u64) -> Trial {
+fn range(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
     let mut rng = seed::rng(RANGE.id, seed);
     let smallest = subject.precision.round_scalar(SMALLEST_THRESHOLD);
     let (mut n, mut outside) = (0, 0);
@@ -43,7 +43,7 @@ fn range(subject: &Subject<'_>, seed: u64) -> Trial {
         n += thresholds.len();
         outside += count;
     }
-    Trial {
+    Ok(Trial {
         conclusion: Conclusion::Exact { holds: outside == 0 },
         statistic: Some(outside as f64),
         statistic_name: "thresholds outside [1e-6, 1]".into(),
@@ -53,7 +53,7 @@ fn range(subject: &Subject<'_>, seed: u64) -> Trial {
         detectable: Some(1.0 / n as f64),
         seen: seen.join("; "),
         evidence: Evidence::None,
-    }
+    })
 }
 
 /// Writes a footprint and its threshold so that they can be tried again.

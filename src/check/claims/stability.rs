@@ -1,7 +1,7 @@
 //! How many thresholds a motion below one pixel changes, against the closed form.
 
 use super::uniform::reject_outsiders;
-use super::{Claim, Conclusion, Trial};
+use super::{Attempt, Claim, Conclusion, Trial};
 use crate::check::evidence::ComparedShare;
 use crate::check::sample::{footprint, general_scenes, moved, placement};
 use crate::check::tolerance::{POWER, SHIFT_SAMPLES, SHIFTS, SINGLE_LEVEL};
@@ -19,7 +19,7 @@ pub const TRANSLATE: Claim = Claim {
     run: translate,
 };
 
-fn translate(subject: &Subject<'_>, seed: u64) -> Trial {
+fn translate(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
     let mut rng = seed::rng(TRANSLATE.id, seed);
     let mut points = Vec::new();
     let mut worst = (1.0, 0.0);
@@ -42,11 +42,8 @@ fn translate(subject: &Subject<'_>, seed: u64) -> Trial {
                     after.push(there);
                 }
                 let (old, new) = (subject.thresholds(&before), subject.thresholds(&after));
-                for (samples, values) in [(&before, &old), (&after, &new)] {
-                    if let Err(trial) = reject_outsiders(samples, values) {
-                        return trial;
-                    }
-                }
+                reject_outsiders(&before, &old)?;
+                reject_outsiders(&after, &new)?;
                 let changed = old.iter().zip(&new).filter(|(a, b)| a != b).count();
                 let test = poisson_binomial::sum_of_events(changed as u64, mean, variance);
                 if test.p < worst.0 {
@@ -77,7 +74,7 @@ fn translate(subject: &Subject<'_>, seed: u64) -> Trial {
             point.series, point.x, point.measured, point.predicted
         )
     });
-    Trial {
+    Ok(Trial {
         conclusion: Conclusion::Probability((worst.0 * f64::from(tests)).min(1.0)),
         statistic: Some(worst.1),
         statistic_name: format!("z, worst of {tests}"),
@@ -87,7 +84,7 @@ fn translate(subject: &Subject<'_>, seed: u64) -> Trial {
         detectable: Some(detectable),
         seen,
         evidence: Evidence::Comparison(points),
-    }
+    })
 }
 
 /// The probability that a motion takes a point out of its fine cell: the finer of the two grids decides, since the

@@ -1,7 +1,7 @@
 //! The law of the threshold: uniform, whatever the weight and the surface, and only thanks to Eq. 2.
 
 use super::range::describe;
-use super::{Claim, Conclusion, Trial};
+use super::{Attempt, Claim, Conclusion, Trial};
 use crate::check::evidence::NamedHistogram;
 use crate::check::sample::{general_scenes, independent};
 use crate::check::tolerance::{
@@ -65,7 +65,7 @@ fn marginal_samples(
     subject: &Subject<'_>,
     claim: &Claim,
     seed: u64,
-) -> Result<(Vec<Footprint<f64>>, Vec<f64>), Trial> {
+) -> Attempt<(Vec<Footprint<f64>>, Vec<f64>)> {
     let mut rng = seed::rng(claim.id, seed);
     let samples = independent(subject, &general_scenes(), MARGINAL_SAMPLES, DRAWS_A_PLACE, &mut rng);
     let values = subject.thresholds(&samples);
@@ -74,15 +74,15 @@ fn marginal_samples(
 }
 
 /// Ends a claim whose samples are not all thresholds.
-pub(super) fn reject_outsiders(samples: &[Footprint<f64>], values: &[f64]) -> Result<(), Trial> {
+pub(super) fn reject_outsiders(samples: &[Footprint<f64>], values: &[f64]) -> Attempt<()> {
     let outside = |value: &&f64| !(0.0..=1.0).contains(*value);
     match values.iter().position(|value| outside(&value)) {
         None => Ok(()),
-        Some(first) => Err(Trial::no_thresholds(
+        Some(first) => Err(Box::new(Trial::no_thresholds(
             values.iter().filter(outside).count(),
             values.len(),
             format!("first {}", describe(&samples[first], values[first])),
-        )),
+        ))),
     }
 }
 
@@ -97,28 +97,22 @@ fn uniformity(histogram: &Histogram) -> Option<ChiSquare> {
     (histogram.total() >= LEAST_GROUP as u64).then(|| chi_square::uniform(histogram.counts()).ok()).flatten()
 }
 
-fn marginal(subject: &Subject<'_>, seed: u64) -> Trial {
-    let (_, values) = match marginal_samples(subject, &MARGINAL, seed) {
-        Ok(found) => found,
-        Err(trial) => return trial,
-    };
+fn marginal(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
+    let (_, values) = marginal_samples(subject, &MARGINAL, seed)?;
     let pooled = histogram(values);
     let tests: Vec<_> = uniformity(&pooled).into_iter().collect();
     let evidence = Evidence::Histograms(vec![NamedHistogram {
         name: "surfaces in general position".into(),
         counts: pooled.counts().to_vec(),
     }]);
-    Trial::worst_of(&tests, pooled.total(), "the pooled thresholds are not uniform".into(), evidence)
+    Ok(Trial::worst_of(&tests, pooled.total(), "the pooled thresholds are not uniform".into(), evidence))
 }
 
-fn coverage(subject: &Subject<'_>, seed: u64) -> Trial {
-    let (_, mut values) = match marginal_samples(subject, &COVERAGE, seed) {
-        Ok(found) => found,
-        Err(trial) => return trial,
-    };
+fn coverage(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
+    let (_, mut values) = marginal_samples(subject, &COVERAGE, seed)?;
     let pooled = histogram(values.iter().copied());
     let n = values.len() as u64;
-    match ecdf::kolmogorov_smirnov(&mut values) {
+    Ok(match ecdf::kolmogorov_smirnov(&mut values) {
         Err(_) => Trial::without(Conclusion::Inconclusive, "the scenes gave no samples"),
         Ok(distance) => Trial {
             // The bound holds at every n and for atoms too, where the asymptotic law does not.
@@ -135,23 +129,21 @@ fn coverage(subject: &Subject<'_>, seed: u64) -> Trial {
                 counts: pooled.counts().to_vec(),
             }]),
         },
-    }
+    })
 }
 
-fn by_lerp_factor(subject: &Subject<'_>, seed: u64) -> Trial {
-    match marginal_samples(subject, &BY_LERP_FACTOR, seed) {
-        Ok((samples, values)) => uniformity_by_lerp_factor(subject, &samples, &values),
-        Err(trial) => trial,
-    }
+fn by_lerp_factor(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
+    let (samples, values) = marginal_samples(subject, &BY_LERP_FACTOR, seed)?;
+    Ok(uniformity_by_lerp_factor(subject, &samples, &values))
 }
 
-fn without_cdf(subject: &Subject<'_>, seed: u64) -> Trial {
+fn without_cdf(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
     let mut rng = seed::rng(WITHOUT_CDF.id, seed);
     let samples = independent(subject, &general_scenes(), MARGINAL_SAMPLES, DRAWS_A_PLACE, &mut rng);
-    match subject.interpolated(&samples) {
+    Ok(match subject.interpolated(&samples) {
         None => Trial::without(Conclusion::NotApplicable, "the subject does not tell its interpolated value"),
         Some(values) => uniformity_by_lerp_factor(subject, &samples, &values),
-    }
+    })
 }
 
 fn uniformity_by_lerp_factor(subject: &Subject<'_>, samples: &[Footprint<f64>], values: &[f64]) -> Trial {
@@ -179,7 +171,7 @@ fn uniformity_by_lerp_factor(subject: &Subject<'_>, samples: &[Footprint<f64>], 
     Trial::worst_of(&tests, tests.iter().map(|test| test.n).sum(), seen, Evidence::Histograms(evidence))
 }
 
-fn constant_z(subject: &Subject<'_>, seed: u64) -> Trial {
+fn constant_z(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
     let mut rng = seed::rng(CONSTANT_Z.id, seed);
     let wall: Vec<Scene> = Scene::all().into_iter().filter(|scene| scene.name == "wall").collect();
     let mut tests: Vec<ChiSquare> = Vec::new();
@@ -189,9 +181,7 @@ fn constant_z(subject: &Subject<'_>, seed: u64) -> Trial {
         // One place for all of a plane's samples: each plane has one z.
         let samples = independent(subject, &wall, PLANE_SAMPLES, usize::MAX, &mut rng);
         let values = subject.thresholds(&samples);
-        if let Err(trial) = reject_outsiders(&samples, &values) {
-            return trial;
-        }
+        reject_outsiders(&samples, &values)?;
         let counts = histogram(values);
         tests.extend(uniformity(&counts));
         let below_half: u64 = counts.counts()[..BINS / 2].iter().sum();
@@ -205,11 +195,11 @@ fn constant_z(subject: &Subject<'_>, seed: u64) -> Trial {
     let Some(sum) =
         tests.into_iter().reduce(|a, b| ChiSquare::new(a.statistic + b.statistic, a.dof + b.dof, a.n + b.n))
     else {
-        return Trial::without(Conclusion::Inconclusive, "the wall gave no samples");
+        return Ok(Trial::without(Conclusion::Inconclusive, "the wall gave no samples"));
     };
     let seen = format!(
         "each plane has a bias of its own: the share of thresholds up to 1/2 is off by up to {:+.2} %",
         100.0 * worst_bias
     );
-    Trial::worst_of(&[sum], sum.n, seen, Evidence::Histograms(evidence))
+    Ok(Trial::worst_of(&[sum], sum.n, seen, Evidence::Histograms(evidence)))
 }

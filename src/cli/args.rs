@@ -1,0 +1,187 @@
+//! What was typed.
+
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::{Parser, Subcommand};
+use hashed_alpha::check::subject::Precision;
+use hashed_alpha::scene::Scene;
+use hashed_alpha::threshold::hash::HashKind;
+use hashed_alpha::threshold::two_scale::Variant;
+use std::path::PathBuf;
+
+const EXIT_CODES_AND_EXAMPLES: &str = "\
+Exit codes:
+  0  done; every claim is consistent with what was seen
+  1  a claim was rejected that should hold
+  2  a mistake in the arguments, a file or the input, or an error while reading or writing
+  3  no verdict: a subject could not be tried
+
+Examples:
+  hashed-alpha check                             try every claim on every subject
+  hashed-alpha check paper:isotropic --json      one subject, one JSON object a claim
+  hashed-alpha scenes fence | hashed-alpha eval  thresholds of a scene
+  hashed-alpha eval --trace --hash mm4 rows.csv  every step on the way to a threshold";
+
+/// Verifies the hashed alpha threshold of Wyman and McGuire (2017).
+///
+/// Hashed alpha testing discards a fragment when its alpha is below a threshold that is hashed from its place, so
+/// that noise stays put when camera or object move. This program evaluates that threshold, tries the claims of the
+/// paper on it with the evidence and the smallest defect that each trial would have seen, and writes a report.
+/// Results go to stdout, progress to stderr.
+#[derive(Debug, Parser)]
+#[command(version, after_help = EXIT_CODES_AND_EXAMPLES, max_term_width = 100)]
+pub struct Args {
+    /// What to do.
+    #[command(subcommand)]
+    pub verb: Verb,
+}
+
+/// One job.
+#[derive(Debug, Subcommand)]
+pub enum Verb {
+    Check(CheckArgs),
+    Eval(EvalArgs),
+    Scenes(ScenesArgs),
+}
+
+/// Tries the claims on subjects and writes a report
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  hashed-alpha check
+  hashed-alpha check paper:anisotropic --seed 7 --out report-7
+  hashed-alpha check --json --no-report | jq 'select(.verdict == \"rejected\")'
+  hashed-alpha check --expect known.toml
+
+A file of known findings makes the exit code speak of news alone:
+  [[finding]]
+  check = \"uniform.constant_z\"
+  subject = \"paper:isotropic\"
+  precision = \"f32\"
+  reason = \"all cells of one z share a bias\"")]
+pub struct CheckArgs {
+    /// Subjects to try, as in `paper:isotropic` or `paper`; all when none is given
+    #[arg(value_name = "SUBJECT")]
+    pub subjects: Vec<String>,
+    /// Print JSON Lines in place of the table
+    #[arg(long)]
+    pub json: bool,
+    /// Seed of every random number of the run
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub seed: u64,
+    /// Folder for the report
+    #[arg(long, value_name = "DIR", default_value = "report")]
+    pub out: PathBuf,
+    /// Write no report
+    #[arg(long, conflicts_with = "out")]
+    pub no_report: bool,
+    /// TOML file of findings that are known and do not count as rejected
+    #[arg(long, value_name = "FILE")]
+    pub expect: Option<PathBuf>,
+}
+
+/// Computes the threshold of every footprint of a CSV file
+///
+/// A row holds a position and its two screen derivatives: px,py,pz,dxx,dxy,dxz,dyx,dyy,dyz. A first line with these
+/// names is allowed; empty lines and lines that start with # are skipped. One line is written for every row.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  echo 0.3,-1.7,2.4,0.012,0,0,0,0.009,0.003 | hashed-alpha eval
+  hashed-alpha eval --variant anisotropic --hash mm4 --precision f64 rows.csv
+  hashed-alpha scenes fence | hashed-alpha eval --trace > trace.csv")]
+pub struct EvalArgs {
+    /// File to read; - is standard input
+    #[arg(value_name = "FILE", default_value = "-")]
+    pub file: PathBuf,
+    /// How scales are chosen from the derivatives
+    #[arg(long, default_value = "isotropic", value_parser = one_of(Variant::ALL, Variant::name))]
+    pub variant: Variant,
+    /// What gives a cell its value
+    #[arg(long, default_value = "sine", value_parser = one_of(HashKind::ALL, HashKind::name))]
+    pub hash: HashKind,
+    /// Type in which input is read and everything computed
+    #[arg(long, default_value = "f32", value_parser = one_of(Precision::ALL, Precision::name))]
+    pub precision: Precision,
+    /// Size of the noise in pixels, above 0
+    #[arg(long, value_name = "S", default_value_t = 1.0, allow_negative_numbers = true)]
+    pub hash_scale: f64,
+    /// Follow the listings to the letter, with their division by zero
+    #[arg(long)]
+    pub literal: bool,
+    /// Write every step in place of the threshold alone
+    #[arg(long)]
+    pub trace: bool,
+}
+
+/// Lists the built-in scenes, or prints the footprints of one as CSV
+///
+/// Footprints come in the form that `eval` reads: pixels row by row, and in each pixel the surfaces that it sees.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  hashed-alpha scenes
+  hashed-alpha scenes fence --resolution 64x48 | hashed-alpha eval
+  hashed-alpha scenes wall --quads > rows.csv")]
+pub struct ScenesArgs {
+    /// Scene to print; all are listed when none is given
+    #[arg(value_name = "NAME", value_parser = scene_names())]
+    pub name: Option<String>,
+    /// Type to which the numbers are rounded
+    #[arg(long, default_value = "f32", requires = "name", value_parser = one_of(Precision::ALL, Precision::name))]
+    pub precision: Precision,
+    /// Take derivatives as a GPU does: differences of f32 positions in 2x2 quads of pixels
+    #[arg(long, requires = "name")]
+    pub quads: bool,
+    /// Width and height of the image in pixels; by default those of the scene
+    #[arg(long, value_name = "WIDTHxHEIGHT", requires = "name", value_parser = resolution)]
+    pub resolution: Option<[u32; 2]>,
+}
+
+/// Accepts the names of `all`, lists them in the help and suggests the nearest one.
+fn one_of<T, const N: usize>(all: [T; N], name: fn(T) -> &'static str) -> impl TypedValueParser<Value = T>
+where
+    T: Copy + Send + Sync + 'static,
+{
+    let find = move |typed: String| all.into_iter().find(|&item| name(item) == typed).ok_or("unknown name");
+    PossibleValuesParser::new(all.map(name)).try_map(find)
+}
+
+fn scene_names() -> PossibleValuesParser {
+    PossibleValuesParser::new(Scene::all().into_iter().map(|scene| scene.name))
+}
+
+/// Reads a width and a height in pixels, as in `640x480`.
+fn resolution(text: &str) -> Result<[u32; 2], &'static str> {
+    let size =
+        text.split_once('x').and_then(|(width, height)| Some([width.parse().ok()?, height.parse().ok()?]));
+    size.filter(|size| !size.contains(&0)).ok_or("write width and height in pixels like 640x480")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn every_definition_is_sound() {
+        Args::command().debug_assert();
+    }
+
+    #[test]
+    fn eval_defaults_to_the_paper() {
+        let args = Args::try_parse_from(["hashed-alpha", "eval"]).unwrap();
+        let Verb::Eval(eval) = args.verb else { panic!("{args:?}") };
+        assert_eq!((eval.variant, eval.hash), (Variant::Isotropic, HashKind::Sine));
+        assert_eq!((eval.precision, eval.hash_scale), (Precision::F32, 1.0));
+    }
+
+    #[test]
+    fn every_name_of_the_catalogue_is_accepted() {
+        for kind in HashKind::ALL {
+            assert!(Args::try_parse_from(["hashed-alpha", "eval", "--hash", kind.name()]).is_ok(), "{kind}");
+        }
+        for variant in Variant::ALL {
+            assert!(Args::try_parse_from(["hashed-alpha", "eval", "--variant", variant.name()]).is_ok());
+        }
+    }
+}

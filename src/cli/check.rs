@@ -1,0 +1,165 @@
+//! `check`: every claim on every subject that was asked for, judged against what is known.
+
+use super::args::CheckArgs;
+use super::failure::Failure;
+use super::known::{self, Known};
+use super::{Ending, output};
+use hashed_alpha::check::expectation::{Expectation, Judgement, judge};
+use hashed_alpha::check::{self, Outcome, Subject, Verdict, claims};
+use hashed_alpha::report::html::Run;
+use hashed_alpha::report::{directory, json, text};
+use indicatif::ProgressBar;
+use std::io::Write;
+use std::path::Path;
+
+/// Tries the claims, writes the report, then the results.
+///
+/// Whatever can be wrong with the arguments comes to light before the first claim is tried.
+pub fn run(args: &CheckArgs) -> Result<Ending, Failure> {
+    let subjects = chosen(Subject::paper(), &args.subjects)?;
+    let known = args.expect.as_deref().map(known::read).transpose()?.unwrap_or_default();
+    let folder = (!args.no_report).then_some(args.out.as_path());
+    folder.map_or(Ok(()), create)?;
+
+    let outcomes = tried(&subjects, args.seed);
+    if let Some(folder) = folder {
+        directory::write_report(folder, &outcomes, &this_run(args.seed))?;
+        output::remark("note", format_args!("the report is in {}", folder.join("index.html").display()));
+    }
+    let results = &mut output::results();
+    let written = if args.json {
+        json::write_json_lines(&outcomes, &mut *results)
+    } else {
+        results.write_all(text::table(&outcomes, output::takes_colour()).as_bytes())
+    };
+    written.and_then(|()| results.flush()).map_err(Failure::Output)?;
+
+    let judgement = judge(&outcomes, &known.expectations);
+    explain(&outcomes, &known, &judgement);
+    Ok(ending(&outcomes, &judgement))
+}
+
+fn create(folder: &Path) -> Result<(), Failure> {
+    let refused = |source| Failure::File { action: "create", place: folder.display().to_string(), source };
+    std::fs::create_dir_all(folder).map_err(refused)
+}
+
+/// Describes this run to the readers of the report.
+fn this_run(seed: u64) -> Run {
+    let typed = std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned());
+    let command: Vec<_> = std::iter::once("hashed-alpha".to_owned()).chain(typed).collect();
+    Run { command: command.join(" "), seed, version: env!("CARGO_PKG_VERSION").to_owned() }
+}
+
+/// Picks the subjects whose name was typed, in full or up to a colon; all when nothing was typed.
+fn chosen<'a>(mut all: Vec<Subject<'a>>, typed: &[String]) -> Result<Vec<Subject<'a>>, Failure> {
+    let is_meant = |subject: &Subject<'_>, typed: &String| {
+        subject.name.strip_prefix(typed).is_some_and(|rest| rest.is_empty() || rest.starts_with(':'))
+    };
+    if let Some(unknown) = typed.iter().find(|typed| !all.iter().any(|subject| is_meant(subject, typed))) {
+        let mut names: Vec<_> = all.into_iter().map(|subject| subject.name).collect();
+        names.dedup();
+        return Err(Failure::Usage(format!("unknown subject `{unknown}`; known are {}", names.join(", "))));
+    }
+    all.retain(|subject| typed.is_empty() || typed.iter().any(|typed| is_meant(subject, typed)));
+    Ok(all)
+}
+
+/// Runs the suite with a bar on stderr, where that is a terminal.
+fn tried(subjects: &[Subject<'_>], seed: u64) -> Vec<Outcome> {
+    let (claims, count) = (claims::ALL.len(), subjects.len());
+    output::remark("note", format_args!("seed {seed}, {claims} claims on {count} subjects"));
+    let bar = ProgressBar::new((claims * count) as u64);
+    let outcomes = check::run(&claims::ALL, subjects, seed, || bar.inc(1));
+    bar.finish_and_clear();
+    outcomes
+}
+
+/// Says on stderr what the exit code rests on.
+fn explain(outcomes: &[Outcome], known: &Known, judgement: &Judgement) {
+    for &index in &judgement.unexpected {
+        let Outcome { check, subject, precision, verdict, .. } = &outcomes[index];
+        output::remark("unexpected", format_args!("{check} of {subject} in {precision} is {verdict}"));
+    }
+    for &index in &judgement.known {
+        let Outcome { check, subject, precision, .. } = &outcomes[index];
+        let reason = known.reason(&outcomes[index]);
+        output::remark("known", format_args!("{check} of {subject} in {precision}: {reason}"));
+    }
+    for &index in &judgement.stale {
+        let Expectation { check, subject, precision } = &known.expectations[index];
+        output::remark(
+            "stale",
+            format_args!("{check} of {subject} in {precision} is not rejected; take it off the list"),
+        );
+    }
+    if !judgement.unmatched.is_empty() {
+        let count = judgement.unmatched.len();
+        output::remark("note", format_args!("known findings that name nothing which was tried: {count}"));
+    }
+}
+
+/// Tells what the answers come to: a known finding is none, and a missing answer weighs less than a wrong one.
+fn ending(outcomes: &[Outcome], judgement: &Judgement) -> Ending {
+    let answered =
+        |&index: &usize| matches!(outcomes[index].verdict, Verdict::Consistent | Verdict::Rejected);
+    if judgement.unexpected.iter().any(answered) {
+        Ending::Rejected
+    } else if judgement.unexpected.is_empty() {
+        Ending::Consistent
+    } else {
+        Ending::NoVerdict
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(typed: &[&str]) -> Result<Vec<String>, String> {
+        let typed: Vec<String> = typed.iter().map(ToString::to_string).collect();
+        let found = chosen(Subject::paper(), &typed).map_err(|error| error.to_string())?;
+        Ok(found.iter().map(|subject| format!("{} {}", subject.name, subject.precision)).collect())
+    }
+
+    #[test]
+    fn a_name_before_a_colon_stands_for_all_behind_it() {
+        assert_eq!(names(&["paper:isotropic"]).unwrap(), ["paper:isotropic f32", "paper:isotropic f64"]);
+        assert_eq!(names(&["paper", "paper:isotropic"]), names(&["paper"]));
+        assert_eq!(names(&["paper"]).unwrap().len(), 4);
+        let error = names(&["paper", "pap"]).unwrap_err();
+        assert_eq!(error, "unknown subject `pap`; known are paper:isotropic, paper:anisotropic");
+    }
+
+    #[test]
+    fn a_rejection_outweighs_a_missing_answer() {
+        let outcome = |verdict| Outcome {
+            check: "family.claim",
+            anchor: "",
+            statement: "",
+            subject: String::new(),
+            precision: "f32",
+            verdict,
+            expected: Verdict::Consistent,
+            statistic: None,
+            statistic_name: String::new(),
+            n: 0,
+            p: None,
+            p_holm: None,
+            effect: None,
+            effect_name: "",
+            detectable: None,
+            seed: 0,
+            finding: None,
+            evidence: check::Evidence::None,
+        };
+        let ending_of = |verdicts: &[Verdict]| {
+            let outcomes: Vec<_> = verdicts.iter().copied().map(outcome).collect();
+            ending(&outcomes, &judge(&outcomes, &[]))
+        };
+        assert_eq!(ending_of(&[Verdict::Consistent, Verdict::NotApplicable]), Ending::Consistent);
+        assert_eq!(ending_of(&[Verdict::Consistent, Verdict::Unavailable]), Ending::NoVerdict);
+        assert_eq!(ending_of(&[Verdict::Inconclusive]), Ending::NoVerdict);
+        assert_eq!(ending_of(&[Verdict::Unavailable, Verdict::Rejected]), Ending::Rejected);
+    }
+}

@@ -1,0 +1,70 @@
+//! Everything that ends a job early, as one message with the place and the way out.
+
+use super::rows::RowError;
+use hashed_alpha::report::directory::ReportError;
+use std::error::Error;
+use std::io;
+
+/// The reason why a job could not be finished.
+#[derive(Debug, thiserror::Error)]
+pub enum Failure {
+    /// Stdout does not take the results.
+    #[error("cannot write to standard output")]
+    Output(#[source] io::Error),
+    /// A file or a folder cannot be opened, read or written.
+    #[error("cannot {action} {place}")]
+    File {
+        /// What was tried, as in "open".
+        action: &'static str,
+        /// The name of the file.
+        place: String,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// A row of the input is not a footprint.
+    #[error(transparent)]
+    Row(#[from] RowError),
+    /// The report cannot be written.
+    #[error(transparent)]
+    Report(#[from] ReportError),
+    /// Something that was typed does not have a meaning.
+    #[error("{0}")]
+    Usage(String),
+}
+
+impl Failure {
+    /// Tells whether the reader of the results has gone.
+    pub fn is_closed_pipe(&self) -> bool {
+        matches!(self, Self::Output(error) if error.kind() == io::ErrorKind::BrokenPipe)
+    }
+
+    /// Returns what happened and, after a colon each, what was behind it.
+    pub fn message(&self) -> String {
+        let mut message = self.to_string();
+        let mut cause = self.source();
+        while let Some(error) = cause {
+            message += &format!(": {error}");
+            cause = error.source();
+        }
+        message
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_message_tells_what_was_behind_it() {
+        let source = io::Error::other("the dog ate it");
+        let failure = Failure::File { action: "open", place: "rows.csv".to_owned(), source };
+        assert_eq!(failure.message(), "cannot open rows.csv: the dog ate it");
+    }
+
+    #[test]
+    fn only_results_have_a_reader_that_can_go() {
+        let gone = || io::Error::from(io::ErrorKind::BrokenPipe);
+        assert!(Failure::Output(gone()).is_closed_pipe());
+        assert!(!Failure::File { action: "read", place: String::new(), source: gone() }.is_closed_pipe());
+    }
+}

@@ -1,0 +1,73 @@
+//! The command line: what was typed ([`args`]), what it means, and one job a verb.
+//!
+//! | module | holds |
+//! |---|---|
+//! | [`args`] | verbs, options and their help |
+//! | [`eval`], [`scenes`], [`check`] | one job a verb |
+//! | [`rows`] | footprints as comma-separated text, read and written |
+//! | [`known`] | the TOML list of known findings |
+//! | [`output`] | the two streams: results on stdout, remarks on stderr |
+//! | [`failure`] | everything that ends a job early, as one message |
+//!
+//! What never lives here: mathematics, statistics, the look of a report. Nothing outside this folder prints.
+
+mod args;
+mod check;
+mod eval;
+mod failure;
+mod known;
+mod output;
+mod rows;
+mod scenes;
+
+pub use args::Args;
+
+use args::Verb;
+use failure::Failure;
+use std::io::Write;
+use std::process::ExitCode;
+
+/// How a job ended that was not cut short.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ending {
+    /// Done, and nothing speaks against a claim.
+    Consistent,
+    /// A claim was rejected that should hold.
+    Rejected,
+    /// A mistake in what was typed.
+    Usage,
+    /// There was nothing to judge.
+    NoVerdict,
+}
+
+/// Does what was asked for.
+pub fn run(args: &Args) -> Result<Ending, Failure> {
+    match &args.verb {
+        Verb::Check(args) => check::run(args),
+        Verb::Eval(args) => eval::run(args),
+        Verb::Scenes(args) => scenes::run(args),
+    }
+}
+
+/// Prints the help that was asked for, or what is wrong with the arguments.
+pub fn explain(message: &clap::Error) -> Result<Ending, Failure> {
+    message.print().and_then(|()| std::io::stdout().flush()).map_err(Failure::Output)?;
+    Ok(if message.use_stderr() { Ending::Usage } else { Ending::Consistent })
+}
+
+/// Turns the end of a job into an exit code and, where it failed, into a message.
+///
+/// A reader that has seen enough and closed the pipe is no failure.
+pub fn finish(result: Result<Ending, Failure>) -> ExitCode {
+    match result {
+        Ok(Ending::Consistent) => ExitCode::SUCCESS,
+        Ok(Ending::Rejected) => ExitCode::from(1),
+        Ok(Ending::Usage) => ExitCode::from(2),
+        Ok(Ending::NoVerdict) => ExitCode::from(3),
+        Err(failure) if failure.is_closed_pipe() => ExitCode::SUCCESS,
+        Err(failure) => {
+            output::remark("error", failure.message());
+            ExitCode::from(2)
+        }
+    }
+}

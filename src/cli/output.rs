@@ -1,0 +1,20 @@
+//! The two streams: results on stdout, remarks on stderr.
+
+use std::env;
+use std::fmt::Display;
+use std::io::{self, BufWriter, IsTerminal, StdoutLock, Write};
+
+/// Returns stdout with a buffer. Flush it: what is left in the buffer at the end is lost without a word.
+pub fn results() -> BufWriter<StdoutLock<'static>> {
+    BufWriter::with_capacity(1 << 16, io::stdout().lock())
+}
+
+/// Tells whether results may carry colours: on a terminal, unless `NO_COLOR` says no.
+pub fn takes_colour() -> bool {
+    io::stdout().is_terminal() && env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
+}
+
+/// Writes `kind: text` to stderr. Nobody is left to hear of it when that fails.
+pub fn remark(kind: &str, text: impl Display) {
+    let _ = writeln!(io::stderr().lock(), "{kind}: {text}");
+}

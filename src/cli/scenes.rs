@@ -1,0 +1,53 @@
+//! `scenes`: the gallery as a list, or one scene as rows for `eval`.
+
+use super::Ending;
+use super::args::ScenesArgs;
+use super::failure::Failure;
+use super::output;
+use super::rows::{write_header, write_row};
+use hashed_alpha::check::subject::Precision;
+use hashed_alpha::scene::Scene;
+use hashed_alpha::threshold::footprint::Footprint;
+use hashed_alpha::threshold::real::Real;
+use std::io::{self, Write};
+
+/// Writes the list, or the footprints of the scene that was named.
+pub fn run(args: &ScenesArgs) -> Result<Ending, Failure> {
+    let output = &mut output::results();
+    let written = match &args.name {
+        None => write_list(output),
+        Some(name) => Scene::all()
+            .into_iter()
+            .filter(|scene| scene.name == name)
+            .try_for_each(|scene| write_scene(output, scene, args)),
+    };
+    written.and_then(|()| output.flush()).map_err(Failure::Output)?;
+    Ok(Ending::Consistent)
+}
+
+fn write_list(output: &mut impl Write) -> io::Result<()> {
+    let scenes = Scene::all();
+    let width = scenes.iter().map(|scene| scene.name.len()).max().unwrap_or(0);
+    scenes.iter().try_for_each(|scene| writeln!(output, "{:width$}  {}", scene.name, scene.description))
+}
+
+fn write_scene(output: &mut impl Write, scene: Scene, args: &ScenesArgs) -> io::Result<()> {
+    let scene = match args.resolution {
+        Some(resolution) => scene.with_resolution(resolution),
+        None => scene,
+    };
+    write_header(output)?;
+    match (args.precision, args.quads) {
+        (Precision::F32, false) => write_rows(output, scene.footprints().map(|exact| exact.cast::<f32>())),
+        (Precision::F64, false) => write_rows(output, scene.footprints()),
+        (Precision::F32, true) => write_rows(output, scene.quad_footprints()),
+        (Precision::F64, true) => write_rows(output, scene.quad_footprints().map(|quad| quad.cast::<f64>())),
+    }
+}
+
+fn write_rows<R: Real>(
+    output: &mut impl Write,
+    mut footprints: impl Iterator<Item = Footprint<R>>,
+) -> io::Result<()> {
+    footprints.try_for_each(|footprint| write_row(output, &footprint))
+}

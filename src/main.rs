@@ -1,0 +1,13 @@
+//! `hashed-alpha`, the command line: parse, run, exit code. What it does is in [`cli`].
+
+mod cli;
+
+use clap::Parser;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    match cli::Args::try_parse() {
+        Ok(args) => cli::finish(cli::run(&args)),
+        Err(message) => cli::finish(cli::explain(&message)),
+    }
+}

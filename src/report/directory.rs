@@ -1,0 +1,253 @@
+//! A report as a directory: `check.jsonl`, `index.html` and a picture for every outcome that has evidence.
+
+use super::figure::evidence::evidence;
+use super::html::{self, Run};
+use super::json::write_json_lines;
+use crate::check::{Evidence, Outcome};
+use std::collections::BTreeSet;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::process;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// Why a report could not be written.
+#[derive(Debug, thiserror::Error)]
+pub enum ReportError {
+    /// A file or a directory failed.
+    #[error("cannot {action} {path}", path = path.display())]
+    File {
+        /// What was tried, as in "write".
+        action: &'static str,
+        /// Where.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// The page could not be made.
+    #[error("cannot make the page for {path}", path = path.display())]
+    Page {
+        /// Where it would have gone.
+        path: PathBuf,
+        /// What the template engine said.
+        source: minijinja::Error,
+    },
+}
+
+/// Stands at the end of every picture of a report, so that a later report can tell its own.
+const MARK: &str = "<!-- a picture of a hashed-alpha report -->\n";
+
+/// Writes a report into a directory and returns the files that it wrote: pictures in the order of the outcomes, then
+/// `check.jsonl`, then `index.html`.
+///
+/// Makes the directory where it is missing. Each file is complete or not there (see [`write_atomically`]), and the
+/// page comes last. Pictures that an earlier report left in the directory and this one does not have are removed;
+/// nothing else is touched.
+///
+/// # Errors
+///
+/// If the directory or a file cannot be written or a stale picture cannot be removed; the error names the path.
+pub fn write_report(dir: &Path, outcomes: &[Outcome], run: &Run) -> Result<Vec<PathBuf>, ReportError> {
+    fs::create_dir_all(dir).map_err(|source| ReportError::File {
+        action: "create",
+        path: dir.into(),
+        source,
+    })?;
+    let names = picture_names(outcomes);
+    let mut written = Vec::new();
+    for (outcome, name) in outcomes.iter().zip(&names) {
+        if let (Some(name), Some(mut svg)) = (name, evidence(outcome)) {
+            svg.push_str(MARK);
+            let path = dir.join(name);
+            write_atomically(&path, svg.as_bytes())?;
+            written.push(path);
+        }
+    }
+    let mut lines = Vec::new();
+    let data = dir.join("check.jsonl");
+    write_json_lines(outcomes, &mut lines).map_err(|source| ReportError::File {
+        action: "make the lines of",
+        path: data.clone(),
+        source,
+    })?;
+    write_atomically(&data, &lines)?;
+    written.push(data);
+    let index = dir.join("index.html");
+    let page = html::page(outcomes, &names, run)
+        .map_err(|source| ReportError::Page { path: index.clone(), source })?;
+    write_atomically(&index, page.as_bytes())?;
+    written.push(index);
+    remove_stale(dir, &names.iter().flatten().map(String::as_str).collect())?;
+    Ok(written)
+}
+
+/// Writes a file by way of a temporary one beside it that is renamed, so that no reader sees half of it.
+///
+/// # Errors
+///
+/// If either step fails; the error names `path`, and the temporary file is removed. Does not wait for the disk: after
+/// a loss of power the file may be empty.
+pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), ReportError> {
+    static COUNTER: AtomicU64 = AtomicU64::new(0);
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let number = COUNTER.fetch_add(1, Ordering::Relaxed);
+    let partial = path.with_file_name(format!(".{name}.{}-{number}.partial", process::id()));
+    fs::write(&partial, bytes).and_then(|()| fs::rename(&partial, path)).map_err(|source| {
+        // The first error is the one to tell; the file may not even exist.
+        let _ = fs::remove_file(&partial);
+        ReportError::File { action: "write", path: path.into(), source }
+    })
+}
+
+/// Returns the file name of the picture of each outcome: check, subject and precision, in characters that every file
+/// system takes and no page needs to escape. Equal names get a number.
+fn picture_names(outcomes: &[Outcome]) -> Vec<Option<String>> {
+    let mut taken = BTreeSet::new();
+    let mut name = |outcome: &Outcome| {
+        let parts = [outcome.check, &outcome.subject, outcome.precision].map(sanitised);
+        let stem = parts.join("--");
+        let numbered = (2..).map(|number| format!("{stem}-{number}.svg"));
+        let mut candidates = std::iter::once(format!("{stem}.svg")).chain(numbered);
+        candidates.find(|candidate| taken.insert(candidate.to_lowercase()))
+    };
+    outcomes
+        .iter()
+        .map(|outcome| if outcome.evidence == Evidence::None { None } else { name(outcome) })
+        .collect()
+}
+
+/// Keeps letters, digits, dots and underscores of ASCII, and at most 60 characters; the rest becomes hyphens, never
+/// two in a row. Never begins with a dot.
+fn sanitised(text: &str) -> String {
+    let mut name = String::new();
+    for c in text.chars() {
+        let kept = c.is_ascii_alphanumeric() || c == '_' || (c == '.' && !name.is_empty());
+        match c {
+            _ if name.len() == 60 => break,
+            _ if kept => name.push(c),
+            _ if name.is_empty() || name.ends_with('-') => {}
+            _ => name.push('-'),
+        }
+    }
+    let trimmed = name.trim_end_matches(['-', '.']);
+    if trimmed.is_empty() { "unnamed".to_owned() } else { trimmed.to_owned() }
+}
+
+/// Removes pictures that carry our mark and a name of our form and are not among `current`.
+fn remove_stale(dir: &Path, current: &BTreeSet<&str>) -> Result<(), ReportError> {
+    let failed = |action, path: &Path| {
+        let path = path.to_owned();
+        move |source| ReportError::File { action, path, source }
+    };
+    for entry in fs::read_dir(dir).map_err(failed("list", dir))? {
+        let entry = entry.map_err(failed("list", dir))?;
+        let (path, name) = (entry.path(), entry.file_name());
+        let Some(name) = name.to_str() else { continue };
+        let named_by_us = name.ends_with(".svg") && name.matches("--").count() == 2;
+        // Of links and directories nothing is ours.
+        let is_file = entry.file_type().is_ok_and(|kind| kind.is_file());
+        if !named_by_us || !is_file || current.contains(name) {
+            continue;
+        }
+        // What cannot be read was not written by us, as far as we can tell.
+        if fs::read(&path).is_ok_and(|bytes| bytes.ends_with(MARK.as_bytes())) {
+            fs::remove_file(&path).map_err(failed("remove", &path))?;
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::example;
+    use super::*;
+
+    fn run() -> Run {
+        Run { command: "hashed-alpha check".to_owned(), seed: 1, version: "0.1.0".to_owned() }
+    }
+
+    fn files(dir: &Path) -> Vec<String> {
+        let mut names: Vec<_> = fs::read_dir(dir)
+            .unwrap()
+            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+            .collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn report_holds_lines_page_and_pictures() {
+        let root = tempfile::tempdir().unwrap();
+        let dir = root.path().join("new").join("report");
+        let written = write_report(&dir, &example::outcomes(), &run()).unwrap();
+        let expected = [
+            "check.jsonl",
+            "independence.neighbours--specimen-raw-hash--f32.svg",
+            "index.html",
+            "stability.translate--script-alert-1-script-co--f32.svg",
+            "uniform.by_lerp_factor--paper-isotropic--f32.svg",
+        ];
+        assert_eq!(files(&dir), expected);
+        assert_eq!(written.len(), expected.len());
+        let page = fs::read_to_string(dir.join("index.html")).unwrap();
+        for picture in expected.iter().filter(|name| name.ends_with(".svg")) {
+            assert!(page.contains(&format!("src=\"{picture}\"")), "{picture}");
+        }
+        let bytes: Vec<_> = written.iter().map(|path| fs::read(path).unwrap()).collect();
+        write_report(&dir, &example::outcomes(), &run()).unwrap();
+        assert_eq!(bytes, written.iter().map(|path| fs::read(path).unwrap()).collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn stale_pictures_go_and_foreign_files_stay() {
+        let root = tempfile::tempdir().unwrap();
+        write_report(root.path(), &example::outcomes(), &run()).unwrap();
+        for foreign in ["a--b--c.svg", "notes.txt", "photo.svg"] {
+            fs::write(root.path().join(foreign), "<svg></svg>").unwrap();
+        }
+        write_report(root.path(), &example::outcomes()[..1], &run()).unwrap();
+        let expected = [
+            "a--b--c.svg",
+            "check.jsonl",
+            "index.html",
+            "notes.txt",
+            "photo.svg",
+            "uniform.by_lerp_factor--paper-isotropic--f32.svg",
+        ];
+        assert_eq!(files(root.path()), expected);
+    }
+
+    #[test]
+    fn a_file_is_replaced_whole_or_not_at_all() {
+        let root = tempfile::tempdir().unwrap();
+        let path = root.path().join("file.txt");
+        write_atomically(&path, b"old").unwrap();
+        write_atomically(&path, b"new").unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"new");
+        fs::create_dir(root.path().join("taken")).unwrap();
+        fs::write(root.path().join("taken").join("x"), "").unwrap();
+        let error = write_atomically(&root.path().join("taken"), b"new").unwrap_err();
+        assert!(error.to_string().ends_with("taken"), "{error}");
+        assert_eq!(files(root.path()), ["file.txt", "taken"]);
+    }
+
+    #[test]
+    fn errors_name_the_path() {
+        let root = tempfile::tempdir().unwrap();
+        let file = root.path().join("file");
+        fs::write(&file, "").unwrap();
+        let error = write_report(&file.join("report"), &[], &run()).unwrap_err();
+        assert!(error.to_string().contains("report"), "{error}");
+    }
+
+    #[test]
+    fn picture_names_are_safe_and_distinct() {
+        let named = |subject: &str| Outcome { subject: subject.to_owned(), ..example::consistent() };
+        let outcomes = ["../../etc/passwd", "a/b", "a b", "A B", "…"].map(named);
+        let names: Vec<_> = picture_names(&outcomes).into_iter().flatten().collect();
+        let prefix = "uniform.by_lerp_factor--";
+        let expected =
+            ["etc-passwd--f32.svg", "a-b--f32.svg", "a-b--f32-2.svg", "A-B--f32-3.svg", "unnamed--f32.svg"];
+        assert_eq!(names, expected.map(|name| format!("{prefix}{name}")));
+    }
+}

@@ -1,0 +1,22 @@
+//! Pictures: pure functions from data to SVG text.
+//!
+//! One file a concept, each with small structs of public fields that hold what is drawn. Nothing here reads a clock, a
+//! random number or a hash map, so equal data gives equal bytes. Text stays text: a viewer sets it in its own
+//! sans-serif font, and the layout leaves room for wide ones.
+//!
+//! | module | what it shows |
+//! |---|---|
+//! | [`before_and_after`] | thresholds before and after Eq. 2 |
+//! | [`cdf_family`] | Eq. 2 and its density for several weights |
+//! | [`stability`] | how many thresholds a small shift changes |
+//! | [`noise`] | the thresholds themselves as grey levels |
+//! | [`evidence`] | what a claim saw |
+
+pub mod before_and_after;
+pub mod cdf_family;
+pub mod evidence;
+pub mod noise;
+pub mod stability;
+
+mod raster;
+mod style;

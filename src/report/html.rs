@@ -1,0 +1,190 @@
+//! The outcomes as one page: no scripts, nothing from elsewhere, pictures in files beside it.
+
+use super::answer;
+use super::text::{number, remark, summary};
+use crate::check::{Outcome, Verdict};
+use minijinja::value::Serde;
+use minijinja::{Environment, context};
+use serde::Serialize;
+
+/// What was run, for the head of the page.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Run {
+    /// The command line as it was typed.
+    pub command: String,
+    /// The seed of all random inputs.
+    pub seed: u64,
+    /// The version of this crate.
+    pub version: String,
+}
+
+/// Where the template comes from: a name that ends in `html` turns escaping on.
+const TEMPLATE: &str = "page.html";
+
+#[derive(Serialize)]
+struct Claim<'a> {
+    id: String,
+    check: &'a str,
+    anchor: &'a str,
+    statement: &'a str,
+    subject: &'a str,
+    precision: &'a str,
+    verdict: &'static str,
+    class: &'static str,
+    remark: Option<String>,
+    n: u64,
+    statistic: String,
+    statistic_name: &'a str,
+    p: String,
+    p_holm: String,
+    effect: String,
+    effect_name: &'a str,
+    detectable: String,
+    picture: Option<&'a str>,
+    alt: String,
+}
+
+/// Returns the page.
+///
+/// `pictures` holds one file name an outcome, relative to the page, or `None` where there is no picture.
+///
+/// # Errors
+///
+/// Those of the template engine; the template is part of the crate and its tests render it.
+pub fn page(
+    outcomes: &[Outcome],
+    pictures: &[Option<String>],
+    run: &Run,
+) -> Result<String, minijinja::Error> {
+    let mut environment = Environment::new();
+    environment.add_template(TEMPLATE, include_str!("page.html"))?;
+    let pictures = pictures.iter().map(Option::as_deref).chain(std::iter::repeat(None));
+    let claims: Vec<_> =
+        outcomes.iter().zip(pictures).enumerate().map(|(i, (o, p))| claim(i, o, p)).collect();
+    let (headline, class) = headline(outcomes);
+    environment.get_template(TEMPLATE)?.render(context! {
+        headline,
+        class,
+        summary => summary(outcomes),
+        command => run.command.as_str(),
+        // As text: a template engine may hold numbers as `f64`.
+        seed => run.seed.to_string(),
+        version => run.version.as_str(),
+        claims => Serde(&claims),
+    })
+}
+
+fn claim<'a>(index: usize, outcome: &'a Outcome, picture: Option<&'a str>) -> Claim<'a> {
+    let verdict = answer(outcome);
+    Claim {
+        id: format!("claim-{}", index + 1),
+        check: outcome.check,
+        anchor: outcome.anchor,
+        statement: outcome.statement,
+        subject: &outcome.subject,
+        precision: outcome.precision,
+        verdict,
+        class: class(outcome),
+        remark: remark(outcome),
+        n: outcome.n,
+        statistic: number(outcome.statistic),
+        statistic_name: &outcome.statistic_name,
+        p: number(outcome.p),
+        p_holm: number(outcome.p_holm),
+        effect: number(outcome.effect),
+        effect_name: outcome.effect_name,
+        detectable: number(outcome.detectable),
+        picture,
+        alt: format!(
+            "Evidence of {} on {} in {}, which is {verdict}",
+            outcome.check, outcome.subject, outcome.precision
+        ),
+    }
+}
+
+/// The class of a badge: what a reader should make of the outcome.
+fn class(outcome: &Outcome) -> &'static str {
+    match outcome.verdict {
+        Verdict::NotApplicable => "idle",
+        _ if outcome.as_expected() => "good",
+        Verdict::Consistent | Verdict::Rejected => "bad",
+        Verdict::Inconclusive | Verdict::Unavailable => "open",
+    }
+}
+
+/// Returns the answer in one sentence, and its class.
+fn headline(outcomes: &[Outcome]) -> (String, &'static str) {
+    let of = |wanted: &str| outcomes.iter().filter(|outcome| class(outcome) == wanted).count();
+    let all = outcomes.len();
+    let verb = |n: usize| if n == 1 { "is" } else { "are" };
+    match (of("bad"), of("open"), of("good")) {
+        (0, 0, 0) => ("Nothing was tried".to_owned(), "idle"),
+        (0, 0, 1) => ("1 claim is as expected".to_owned(), "good"),
+        (0, 0, good) => (format!("All {good} claims are as expected"), "good"),
+        (0, open, _) => (format!("There is no verdict on {open} of {all} claims"), "open"),
+        (bad, _, _) => (format!("{bad} of {all} claims {} not as expected", verb(bad)), "bad"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::example;
+    use super::*;
+
+    fn run() -> Run {
+        Run { command: "hashed-alpha check '<b>'".to_owned(), seed: u64::MAX, version: "0.1.0".to_owned() }
+    }
+
+    fn rendered() -> String {
+        let outcomes = example::outcomes();
+        let pictures: Vec<_> =
+            outcomes.iter().enumerate().map(|(i, _)| (i < 3).then(|| format!("{i}.svg"))).collect();
+        page(&outcomes, &pictures, &run()).unwrap()
+    }
+
+    #[test]
+    fn what_comes_from_outside_is_escaped() {
+        let page = rendered();
+        assert!(!page.contains("<script") && !page.contains("<b>"));
+        assert!(page.contains("&lt;script&gt;alert(1)") && page.contains("&amp; co"));
+    }
+
+    #[test]
+    fn page_says_what_was_run_and_what_came_out() {
+        let page = rendered();
+        for text in [
+            "2 of 7 claims are not as expected",
+            "18446744073709551615",
+            "0.1.0",
+            "rejected, as it must be",
+            "no adapter",
+            "§5.4.2, Eq. 2",
+            "src=\"1.svg\"",
+            "href=\"#claim-2\"",
+            "id=\"claim-2\"",
+            "lang=\"en\"",
+        ] {
+            assert!(page.contains(text), "{text}");
+        }
+        assert_eq!(page.matches("<img").count(), 3);
+        assert_eq!(page.matches(" alt=\"").count(), 3);
+        assert_eq!(page, rendered());
+    }
+
+    #[test]
+    fn page_needs_nothing_from_elsewhere() {
+        let page = rendered();
+        for outside in ["http:", "https:", "//", "<link", "@import", "url("] {
+            assert!(!page.contains(outside), "{outside}");
+        }
+    }
+
+    #[test]
+    fn headline_names_the_worst() {
+        let all = example::outcomes();
+        assert_eq!(headline(&all[..1]), ("1 claim is as expected".to_owned(), "good"));
+        assert_eq!(headline(&all[4..]), ("There is no verdict on 2 of 3 claims".to_owned(), "open"));
+        assert_eq!(headline(&all[1..2]), ("1 of 1 claims is not as expected".to_owned(), "bad"));
+        assert_eq!(headline(&all[6..]), ("Nothing was tried".to_owned(), "idle"));
+    }
+}

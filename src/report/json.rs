@@ -1,0 +1,109 @@
+//! The outcomes as JSON Lines: one object a claim, in the order in which the claims were tried.
+
+use crate::check::Outcome;
+use serde::Serialize;
+use std::io::{self, Write};
+
+/// The version of the keys; grows when one changes its meaning or goes.
+pub const SCHEMA: u32 = 1;
+
+/// The keys of one line, in their order.
+#[derive(Serialize)]
+struct Line<'a> {
+    schema: u32,
+    check: &'a str,
+    anchor: &'a str,
+    subject: &'a str,
+    precision: &'a str,
+    verdict: &'a str,
+    statistic: Option<f64>,
+    n: u64,
+    p: Option<f64>,
+    p_holm: Option<f64>,
+    effect: Option<f64>,
+    detectable: Option<f64>,
+    seed: u64,
+    finding: Option<&'a str>,
+    expected: &'a str,
+    statement: &'a str,
+    statistic_name: &'a str,
+    effect_name: &'a str,
+}
+
+impl<'a> From<&'a Outcome> for Line<'a> {
+    fn from(outcome: &'a Outcome) -> Self {
+        let finite = |value: Option<f64>| value.filter(|v| v.is_finite());
+        Self {
+            schema: SCHEMA,
+            check: outcome.check,
+            anchor: outcome.anchor,
+            subject: &outcome.subject,
+            precision: outcome.precision,
+            verdict: outcome.verdict.name(),
+            statistic: finite(outcome.statistic),
+            n: outcome.n,
+            p: finite(outcome.p),
+            p_holm: finite(outcome.p_holm),
+            effect: finite(outcome.effect),
+            detectable: finite(outcome.detectable),
+            seed: outcome.seed,
+            finding: outcome.finding.as_deref(),
+            expected: outcome.expected.name(),
+            statement: outcome.statement,
+            statistic_name: &outcome.statistic_name,
+            effect_name: outcome.effect_name,
+        }
+    }
+}
+
+/// Writes one JSON object a line and an outcome.
+///
+/// Values that are absent or not finite become `null`. Integers (`n`, `seed`) are written in full, up to 2^64 - 1:
+/// readers that hold numbers as `f64` round large seeds. The evidence is not written.
+///
+/// # Errors
+///
+/// Those of `to`.
+pub fn write_json_lines(outcomes: &[Outcome], mut to: impl Write) -> io::Result<()> {
+    for outcome in outcomes {
+        serde_json::to_writer(&mut to, &Line::from(outcome))?;
+        to.write_all(b"\n")?;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::example;
+    use super::*;
+
+    fn lines() -> Vec<String> {
+        let mut bytes = Vec::new();
+        write_json_lines(&example::outcomes(), &mut bytes).unwrap();
+        String::from_utf8(bytes).unwrap().lines().map(str::to_owned).collect()
+    }
+
+    #[test]
+    fn a_line_has_the_promised_keys_in_their_order() {
+        assert_eq!(
+            lines()[0],
+            "{\"schema\":1,\"check\":\"uniform.by_lerp_factor\",\"anchor\":\"§5.4.2, Eq. 2\",\
+             \"subject\":\"paper:isotropic\",\"precision\":\"f32\",\"verdict\":\"consistent\",\
+             \"statistic\":61.237,\"n\":1048576,\"p\":0.5386,\"p_holm\":1.0,\"effect\":0.0000584,\
+             \"detectable\":0.00016,\"seed\":18446744073709551615,\"finding\":null,\"expected\":\"consistent\",\
+             \"statement\":\"Thresholds are uniform for every lerp factor.\",\
+             \"statistic_name\":\"chi-square, 63 dof\",\"effect_name\":\"excess chi-square per sample\"}"
+        );
+    }
+
+    #[test]
+    fn what_is_not_finite_becomes_null() {
+        let lines = lines();
+        assert!(lines[1].contains("\"statistic\":null") && lines[4].contains("\"effect\":null"));
+        for line in &lines {
+            let value: serde_json::Value = serde_json::from_str(line).unwrap();
+            assert_eq!(value["schema"], 1);
+            assert_eq!(value.as_object().unwrap().len(), 18);
+        }
+    }
+}

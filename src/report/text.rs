@@ -1,0 +1,295 @@
+//! The outcomes as a table for a terminal, at most [`COLUMNS`] wide.
+
+use super::answer;
+use crate::check::{Outcome, Verdict};
+use std::fmt::Write as _;
+
+/// The widest line, in characters.
+pub const COLUMNS: usize = 120;
+
+const HEADINGS: [&str; 8] =
+    ["verdict", "check", "subject", "prec", "n", "statistic", "p (Holm)", "effect / detectable"];
+/// Columns of numbers, which stand to the right.
+const FIRST_NUMBER: usize = 4;
+const GAP: usize = 2;
+/// Where findings begin.
+const INDENT: &str = "    ";
+const SHORTEST_NAME: usize = 12;
+
+/// Returns the table, with a line break after every line: headings, one line a claim, below it its finding where it
+/// has one, and [`summary`].
+///
+/// `colour` puts ANSI colours around verdicts: green where the answer is the expected one, red where it is not,
+/// yellow where there is none. Without it the text is plain. Names that do not fit are cut in the middle.
+#[must_use]
+pub fn table(outcomes: &[Outcome], colour: bool) -> String {
+    let mut rows: Vec<[String; 8]> = outcomes.iter().map(cells).collect();
+    let mut widths = HEADINGS.map(|heading| heading.chars().count());
+    for row in &rows {
+        for (width, cell) in widths.iter_mut().zip(row) {
+            *width = (*width).max(cell.chars().count());
+        }
+    }
+    narrow(&mut widths);
+    for row in &mut rows {
+        for (cell, &width) in row.iter_mut().zip(&widths) {
+            *cell = cut(cell, width);
+        }
+    }
+    let mut text = String::new();
+    push_row(&mut text, &HEADINGS.map(str::to_owned), &widths, None);
+    for (row, outcome) in rows.iter().zip(outcomes) {
+        let paint = colour.then(|| paint_of(outcome));
+        push_row(&mut text, row, &widths, paint);
+        push_finding(&mut text, outcome, paint);
+    }
+    wrap(&summary(outcomes), COLUMNS).iter().for_each(|line| push_line(&mut text, line));
+    text
+}
+
+/// Returns how many outcomes there are of each kind, in one line without a line break.
+#[must_use]
+pub fn summary(outcomes: &[Outcome]) -> String {
+    let count =
+        |wanted: &dyn Fn(&Outcome) -> bool| outcomes.iter().filter(|&outcome| wanted(outcome)).count();
+    let is_control = |o: &Outcome| o.expected == Verdict::Rejected;
+    let counts = [
+        (count(&|o| o.verdict == Verdict::Consistent && !is_control(o)), "consistent"),
+        (count(&|o| o.verdict == Verdict::Rejected && !is_control(o)), "rejected"),
+        (count(&|o| o.verdict == Verdict::Rejected && is_control(o)), "rejected, as they must be"),
+        (count(&|o| o.verdict == Verdict::Consistent && is_control(o)), "not rejected, though they must be"),
+        (count(&|o| o.verdict == Verdict::Inconclusive), "inconclusive"),
+        (count(&|o| o.verdict == Verdict::Unavailable), "unavailable"),
+        (count(&|o| o.verdict == Verdict::NotApplicable), "not applicable"),
+    ];
+    let parts: Vec<_> =
+        counts.into_iter().filter(|(n, _)| *n > 0).map(|(n, name)| format!("{n} {name}")).collect();
+    let claims = if outcomes.len() == 1 { "claim" } else { "claims" };
+    let parts = if parts.is_empty() { "nothing was tried".to_owned() } else { parts.join("; ") };
+    format!("{} {claims}: {parts}", outcomes.len())
+}
+
+/// Returns the remark that belongs to an outcome: its finding, and whether a negative control did its work.
+pub(super) fn remark(outcome: &Outcome) -> Option<String> {
+    let finding = outcome.finding.as_deref().filter(|finding| !finding.is_empty());
+    let answered = matches!(outcome.verdict, Verdict::Consistent | Verdict::Rejected);
+    let control = (outcome.expected == Verdict::Rejected && answered).then(|| answer(outcome));
+    match (control, finding) {
+        (Some(control), Some(finding)) => Some(format!("{control}: {finding}")),
+        (control, finding) => control.or(finding).map(str::to_owned),
+    }
+}
+
+/// Returns a number in at most nine characters; a dash where there is none.
+pub(super) fn number(value: Option<f64>) -> String {
+    let Some(value) = value else { return "-".to_owned() };
+    let magnitude = value.abs();
+    if value == 0.0 {
+        "0".to_owned()
+    } else if !value.is_finite() {
+        value.to_string()
+    } else if (0.001..10_000_000.0).contains(&magnitude) {
+        let decimals = (3 - libm::log10(magnitude).floor() as i32).clamp(0, 5) as usize;
+        let fixed = format!("{value:.decimals$}");
+        let trimmed = if decimals > 0 { fixed.trim_end_matches('0').trim_end_matches('.') } else { &fixed };
+        trimmed.to_owned()
+    } else {
+        format!("{value:.1e}")
+    }
+}
+
+fn cells(outcome: &Outcome) -> [String; 8] {
+    let nothing_seen = outcome.effect.is_none() && outcome.detectable.is_none();
+    [
+        outcome.verdict.name().replace('_', " "),
+        outcome.check.to_owned(),
+        outcome.subject.chars().map(|c| if c.is_control() { '?' } else { c }).collect(),
+        outcome.precision.to_owned(),
+        outcome.n.to_string(),
+        number(outcome.statistic),
+        number(outcome.p_holm),
+        if nothing_seen {
+            "-".to_owned()
+        } else {
+            format!("{} / {}", number(outcome.effect), number(outcome.detectable))
+        },
+    ]
+}
+
+/// Takes from the wider of the two columns of names, check and subject, until the line fits.
+fn narrow(widths: &mut [usize; 8]) {
+    let line = |widths: &[usize; 8]| widths.iter().sum::<usize>() + GAP * (widths.len() - 1);
+    while line(widths) > COLUMNS {
+        let widest = if widths[1] > widths[2] { 1 } else { 2 };
+        if widths[widest] <= SHORTEST_NAME {
+            break;
+        }
+        widths[widest] -= 1;
+    }
+}
+
+/// Cuts a text to a width by an ellipsis in its middle.
+fn cut(text: &str, width: usize) -> String {
+    let length = text.chars().count();
+    if length <= width {
+        return text.to_owned();
+    }
+    let kept = width.saturating_sub(1);
+    let tail = kept / 2;
+    let head = text.chars().take(kept - tail);
+    head.chain(['…']).chain(text.chars().skip(length - tail)).collect()
+}
+
+fn push_row(text: &mut String, cells: &[String; 8], widths: &[usize; 8], paint: Option<&str>) {
+    let mut line = String::new();
+    for (column, (cell, &width)) in cells.iter().map(String::as_str).zip(widths).enumerate() {
+        let padding = " ".repeat(width.saturating_sub(cell.chars().count()));
+        let gap = if column == 0 { "" } else { "  " };
+        line.push_str(gap);
+        match (column, paint) {
+            (0, Some(paint)) => line.extend([paint, cell, RESET, &padding]),
+            (FIRST_NUMBER.., _) => line.extend([padding.as_str(), cell]),
+            _ => line.extend([cell, padding.as_str()]),
+        }
+    }
+    push_line(text, line.trim_end());
+}
+
+fn push_finding(text: &mut String, outcome: &Outcome, paint: Option<&str>) {
+    let Some(remark) = remark(outcome) else { return };
+    for line in wrap(&remark, COLUMNS - INDENT.len()) {
+        match paint {
+            Some(paint) => push_line(text, &format!("{INDENT}{paint}{line}{RESET}")),
+            None => push_line(text, &format!("{INDENT}{line}")),
+        }
+    }
+}
+
+/// Breaks a text between words; a word that is longer than the line is broken too.
+fn wrap(text: &str, width: usize) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    for word in text.split_whitespace() {
+        let pieces: Vec<char> = word.chars().filter(|c| !c.is_control()).collect();
+        for piece in pieces.chunks(width) {
+            let last = lines.last_mut().expect("there is a line");
+            let used = last.chars().count();
+            if used > 0 && used + 1 + piece.len() > width {
+                lines.push(piece.iter().collect());
+            } else {
+                last.extend((used > 0).then_some(' ').into_iter().chain(piece.iter().copied()));
+            }
+        }
+    }
+    lines
+}
+
+fn push_line(text: &mut String, line: &str) {
+    writeln!(text, "{line}").expect("writing into memory cannot fail");
+}
+
+const GREEN: &str = "\u{1b}[32m";
+const RED: &str = "\u{1b}[31m";
+const YELLOW: &str = "\u{1b}[33m";
+const RESET: &str = "\u{1b}[0m";
+
+fn paint_of(outcome: &Outcome) -> &'static str {
+    match outcome.verdict {
+        _ if outcome.as_expected() => GREEN,
+        Verdict::Consistent | Verdict::Rejected => RED,
+        _ => YELLOW,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::example;
+    use super::*;
+
+    #[test]
+    fn table_is_aligned_and_fits() {
+        let text = table(&example::outcomes(), false);
+        assert!(!text.contains('\u{1b}'));
+        for line in text.lines() {
+            assert!(line.chars().count() <= COLUMNS, "{line}");
+            assert_eq!(line.trim_end(), line);
+        }
+        let of = |word: &str| text.lines().find(|line| line.contains(word)).unwrap().find("paper").unwrap();
+        assert_eq!(text.lines().next().unwrap().find("subject"), Some(of("uniform.by_lerp_factor")));
+    }
+
+    #[test]
+    fn a_rejected_claim_is_followed_by_its_finding() {
+        let text = table(&example::outcomes(), false);
+        let lines: Vec<_> = text.lines().collect();
+        let at = lines.iter().position(|line| line.contains("stability.translate")).unwrap();
+        assert!(lines[at].starts_with("rejected "));
+        assert!(lines[at + 1].starts_with("    of 65536 thresholds 37 % change"), "{}", lines[at + 1]);
+        assert!(lines[at + 2].starts_with("    ") && lines[at + 3].starts_with("rejected "));
+        assert!(text.contains("    rejected, as it must be: neighbouring cells share a factor\n"));
+        assert!(text.contains("    not rejected, though it must be\n"));
+        assert!(text.contains("    no adapter\n"));
+    }
+
+    #[test]
+    fn last_line_sums_up() {
+        assert_eq!(
+            summary(&example::outcomes()),
+            "7 claims: 1 consistent; 1 rejected; 1 rejected, as they must be; 1 not rejected, though they must be; \
+             1 inconclusive; 1 unavailable; 1 not applicable"
+        );
+        assert!(table(&example::outcomes()[1..4], false).ends_with(
+            "\n3 claims: 1 rejected; 1 rejected, as they must be; 1 not rejected, though they must be\n"
+        ));
+        assert_eq!(summary(&[]), "0 claims: nothing was tried");
+    }
+
+    #[test]
+    fn colour_changes_nothing_but_colour() {
+        let coloured = table(&example::outcomes(), true);
+        let plain =
+            [GREEN, RED, YELLOW, RESET].iter().fold(coloured.clone(), |text, code| text.replace(code, ""));
+        assert_eq!(plain, table(&example::outcomes(), false));
+        assert!(
+            coloured.contains("\u{1b}[31mrejected\u{1b}[0m")
+                && coloured.contains("\u{1b}[32mrejected\u{1b}[0m")
+        );
+    }
+
+    #[test]
+    fn foreign_names_cannot_steer_the_terminal() {
+        let outcome = Outcome {
+            subject: "\u{1b}[2Jx".to_owned(),
+            finding: Some("\u{1b}[2J seen".to_owned()),
+            ..example::consistent()
+        };
+        assert!(!table(&[outcome], false).contains('\u{1b}'));
+    }
+
+    #[test]
+    fn numbers_are_short() {
+        let cases = [
+            (61.237, "61.24"),
+            (0.5386, "0.5386"),
+            (1.0, "1"),
+            (-0.001_25, "-0.00125"),
+            (3.1e-200, "3.1e-200"),
+            (9_999.96, "10000"),
+            (123_456.0, "123456"),
+            (12_345_678.0, "1.2e7"),
+            (f64::INFINITY, "inf"),
+            (f64::NAN, "NaN"),
+            (0.0, "0"),
+        ];
+        for (value, expected) in cases {
+            assert_eq!(number(Some(value)), expected);
+        }
+        assert_eq!(number(None), "-");
+    }
+
+    #[test]
+    fn long_names_keep_both_ends() {
+        assert_eq!(cut("a/very/long/path.wgsl", 12), "a/very….wgsl");
+        assert_eq!(wrap("aaaa bb cc", 4), ["aaaa", "bb", "cc"]);
+        assert_eq!(wrap("aaaaaa", 4), ["aaaa", "aa"]);
+    }
+}

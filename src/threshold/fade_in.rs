@@ -1,0 +1,143 @@
+//! Fading noise in with distance: Eqs. 3 to 5 and the anisotropy factor of §7.1.1.
+//!
+//! While the noise fades in, fragments with alpha below `(1 - b) / 2` vanish as they do under the traditional test:
+//! Eq. 4 keeps a fragment with probability `clamp((alpha - 1/2) / b + 1/2, 0, 1)`.
+
+use super::fixed::FIXED_THRESHOLD;
+use super::real::Real;
+use super::robust::SMALLEST_ROBUST_THRESHOLD;
+
+/// The anisotropy of texture filtering that hardware goes to; beyond it no finer level is read.
+pub const GREATEST_ANISOTROPY: f64 = 16.0;
+
+/// Brings a threshold into [2^-24, 1]: the last step after any of the transformations of §7 and §8, so that alpha 0
+/// never passes and alpha 1 always does. NaN stays NaN. Not in the paper, which clamps before them.
+#[must_use]
+pub fn clamp_last<R: Real>(threshold: R) -> R {
+    Real::clamp(threshold, R::from_f64(SMALLEST_ROBUST_THRESHOLD), R::from_f64(1.0))
+}
+
+/// Returns the share of noise at a level of detail: 0 up to level 0, `(lod / n)^2` below `n`, 1 from `n` on. Eq. 5.
+///
+/// Literal: NaN where `lod` is NaN gives 1.
+#[must_use]
+pub fn blend_literal<R: Real>(lod: R, n: R) -> R {
+    let [zero, one] = [0.0, 1.0].map(R::from_f64);
+    if lod <= zero {
+        zero
+    } else if zero < lod && lod < n {
+        (lod / n) * (lod / n)
+    } else {
+        one
+    }
+}
+
+/// Returns the share of noise at a level of detail, in [0, 1] for every input. Eq. 5.
+///
+/// A level that is NaN counts as 0 (no noise), an `n` that is not above 0 as a step at level 0.
+#[must_use]
+pub fn blend<R: Real>(lod: R, n: R) -> R {
+    let [zero, one] = [0.0, 1.0].map(R::from_f64);
+    if lod > zero {
+        let share = lod / n;
+        // Also false for NaN, as from infinity over infinity.
+        if share >= zero && share < one { share * share } else { one }
+    } else {
+        zero
+    }
+}
+
+/// Returns the degree of anisotropy of a texture access, by which §7.1.1 multiplies the level of detail.
+///
+/// `lengths` are those of the two screen derivatives of the texture coordinate. Literal: NaN where both are 0, infinite
+/// where one is.
+#[must_use]
+pub fn anisotropy_literal<R: Real>([x, y]: [R; 2]) -> R {
+    Real::max(x / y, y / x)
+}
+
+/// Returns the degree of anisotropy of a texture access, in [1, 16]; 1 where it has none to speak of. §7.1.1.
+///
+/// Negative or non-finite lengths count as no anisotropy.
+#[must_use]
+pub fn anisotropy<R: Real>([x, y]: [R; 2]) -> R {
+    let [one, greatest] = [1.0, GREATEST_ANISOTROPY].map(R::from_f64);
+    let (long, short) = if x < y { (y, x) } else { (x, y) };
+    if !(long.is_finite() && short.is_finite() && short >= R::from_f64(0.0)) || long <= short {
+        one
+    } else if long >= short * greatest {
+        greatest
+    } else {
+        Real::clamp(long / short, one, greatest)
+    }
+}
+
+/// Fades a threshold towards the traditional one: `1/2 + (threshold - 1/2) b`. Eq. 4.
+///
+/// Literal: loses a threshold below 2^-25 even at `b` = 1, and can return 0.
+#[must_use]
+pub fn fade_in_literal<R: Real>(threshold: R, b: R) -> R {
+    let half = R::from_f64(FIXED_THRESHOLD);
+    half + (threshold - half) * b
+}
+
+/// Fades a threshold in (0, 1] towards the traditional one; exactly 1/2 at `b` = 0 and the threshold itself at `b` = 1,
+/// in [2^-24, 1] between them. Eq. 4 as a mixture.
+#[must_use]
+pub fn fade_in<R: Real>(threshold: R, b: R) -> R {
+    let b = Real::clamp(b, R::from_f64(0.0), R::from_f64(1.0));
+    clamp_last((R::from_f64(1.0) - b) * R::from_f64(FIXED_THRESHOLD) + b * threshold)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_ramp_is_quadratic_between_its_ends() {
+        for (lod, expected) in [(-1.0, 0.0), (0.0, 0.0), (3.0, 0.25), (6.0, 1.0), (9.0, 1.0)] {
+            assert_eq!(blend(lod, 6.0_f64), expected);
+            assert_eq!(blend_literal(lod, 6.0_f64), expected);
+        }
+        for (lod, n, expected) in
+            [(f32::NAN, 6.0, 0.0), (1.0, 0.0, 1.0), (1.0, -3.0, 1.0), (1.0, f32::NAN, 1.0), (0.0, 0.0, 0.0)]
+        {
+            assert_eq!(blend(lod, n), expected, "{lod} {n}");
+        }
+        assert_eq!(blend(f64::INFINITY, f64::INFINITY), 1.0);
+    }
+
+    #[test]
+    fn anisotropy_has_bounds_where_the_literal_form_has_none() {
+        assert!(anisotropy_literal([0.0_f32, 0.0]).is_nan());
+        assert_eq!(anisotropy([0.0_f32, 0.0]), 1.0);
+        assert!(anisotropy_literal([0.0_f32, 1.0]).is_infinite());
+        assert_eq!(anisotropy([0.0_f32, 1.0]), 16.0);
+        assert_eq!(anisotropy([0.2_f64, 0.4]), 2.0);
+        assert_eq!(anisotropy([0.4_f64, 0.2]), 2.0);
+        assert_eq!(anisotropy([f64::NAN, 0.2]), 1.0);
+        assert_eq!(anisotropy([f64::INFINITY, 0.2]), 1.0);
+    }
+
+    #[test]
+    fn a_small_threshold_survives_full_noise() {
+        let small = 1.0_f32 / 16_777_216.0;
+        assert_eq!(fade_in_literal(small, 1.0), 5.960_464_5e-8);
+        assert_eq!(fade_in_literal(small * 0.25, 1.0), 0.0);
+        assert_eq!(fade_in(small, 1.0), small);
+        assert_eq!(fade_in(small, 0.0), 0.5);
+    }
+
+    #[test]
+    fn kept_share_follows_the_ramp() {
+        let n = 10_000;
+        for (alpha, b) in [(0.3, 0.25), (0.45, 0.25), (0.7, 0.5), (0.2, 1.0)] {
+            let kept = (0..n)
+                .map(|i| fade_in((f64::from(i) + 0.5) / f64::from(n), b))
+                .filter(|&threshold| alpha >= threshold)
+                .count();
+            let expected: f64 = ((alpha - 0.5) / b + 0.5_f64).clamp(0.0, 1.0);
+            assert!((kept as f64 / f64::from(n) - expected).abs() < 1e-3, "alpha {alpha}, b {b}");
+        }
+    }
+}

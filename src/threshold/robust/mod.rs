@@ -1,0 +1,222 @@
+//! The robust threshold: Listings 1 and 2 with every repair that the hard cases ask for.
+//!
+//! With [`Repairs::NONE`], [`Join::Interpolate`] and the sine hash it is the listing, bit for bit; each repair can be
+//! switched alone, so that its effect and its price can be measured. With [`Repairs::ALL`] and an integer hash it is
+//! total: every bit pattern of its inputs gives a threshold in [2^-24, 1] or an [`InvalidInput`].
+
+pub mod join;
+pub mod repairs;
+pub mod scales;
+
+pub use join::Join;
+pub use repairs::{Repair, Repairs};
+
+use super::footprint::Footprint;
+use super::hash::{Hash, HashKind};
+use super::real::Real;
+use super::two_scale::Variant;
+use join::Joined;
+use scales::Scales;
+
+/// The smallest robust threshold, 2^-24: half a step of the open lattice, so that alpha 0 never passes.
+pub const SMALLEST_ROBUST_THRESHOLD: f64 = 1.0 / 16_777_216.0;
+
+/// A footprint or parameter that has no threshold.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum InvalidInput {
+    /// A coordinate or derivative is NaN or infinite.
+    #[error("{what} is {value}; a finite number is needed")]
+    NotFinite {
+        /// Which one, as in "dpdx.y".
+        what: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// The hash scale is not a positive number.
+    #[error("the hash scale is {0}; a finite number of pixels above 0 is needed")]
+    HashScale(f64),
+}
+
+/// The robust threshold and what it is made of.
+///
+/// ```
+/// use glam::vec3;
+/// use hashed_alpha::threshold::{footprint::Footprint, robust::Robust, two_scale::Variant};
+///
+/// // A wall of constant z: Listing 2 divides by zero here.
+/// let footprint = Footprint::<f32> {
+///     position: vec3(0.3, 0.4, 0.5),
+///     dpdx: vec3(0.1, 0.0, 0.0),
+///     dpdy: vec3(0.0, 0.1, 0.0),
+/// };
+/// let threshold = Robust::new(Variant::Anisotropic).threshold(&footprint).unwrap();
+/// assert!(threshold > 0.0 && threshold <= 1.0);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Robust<H = HashKind> {
+    /// [`Variant::Isotropic`] or [`Variant::Anisotropic`]; the ablations of §5.4 have no robust form and count as
+    /// isotropic here.
+    pub variant: Variant,
+    /// What is asked for the value of a cell.
+    pub hash: H,
+    /// Size of the noise in pixels, finite and above 0 (`g_HashScale`).
+    pub hash_scale: f64,
+    /// How the hashes of two octaves become one value.
+    pub join: Join,
+    /// Which repairs are made.
+    pub repairs: Repairs,
+}
+
+/// Every intermediate value of one robust threshold.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RobustTrace<R: Real> {
+    /// Derivatives, scales and octaves.
+    pub scales: Scales<R>,
+    /// Hashes and weights.
+    pub joined: Joined<R>,
+    /// The threshold.
+    pub threshold: R,
+}
+
+impl Robust {
+    /// Every repair, MurmurHash3 and a noise of one pixel; joined as in the paper with one scale, by the copula with
+    /// one scale an axis, where the paper's join jumps.
+    #[must_use]
+    pub const fn new(variant: Variant) -> Self {
+        let join = if matches!(variant, Variant::Anisotropic) { Join::Copula } else { Join::Interpolate };
+        Self { variant, hash: HashKind::Mm4, hash_scale: 1.0, join, repairs: Repairs::ALL }
+    }
+}
+
+impl<H> Robust<H> {
+    /// Returns the threshold of a footprint, in [2^-24, 1] with every repair.
+    ///
+    /// # Errors
+    ///
+    /// With [`Repair::ValidateInputs`]: [`InvalidInput`] for a coordinate or derivative that is NaN or infinite and for
+    /// a hash scale that is not a finite number above 0.
+    pub fn threshold<R: Real>(&self, footprint: &Footprint<R>) -> Result<R, InvalidInput>
+    where
+        H: Hash<R>,
+    {
+        self.trace(footprint).map(|trace| trace.threshold)
+    }
+
+    /// Returns the threshold of a footprint with every value on the way.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Robust::threshold`].
+    pub fn trace<R: Real>(&self, footprint: &Footprint<R>) -> Result<RobustTrace<R>, InvalidInput>
+    where
+        H: Hash<R>,
+    {
+        if self.repairs.contains(Repair::ValidateInputs) {
+            validate(footprint, self.hash_scale)?;
+        }
+        let hash_scale = R::from_f64(self.hash_scale);
+        let scales = scales::scales(self.variant, footprint, hash_scale, self.repairs);
+        let joined =
+            join::join(self.join, self.variant, &self.hash, footprint.position, &scales, self.repairs);
+        let smallest = if self.repairs.contains(Repair::FinalClamp) {
+            SMALLEST_ROBUST_THRESHOLD
+        } else {
+            super::hashed::SMALLEST_THRESHOLD
+        };
+        let threshold = Real::clamp(joined.uniform, R::from_f64(smallest), R::from_f64(1.0));
+        Ok(RobustTrace { scales, joined, threshold })
+    }
+}
+
+fn validate<R: Real>(footprint: &Footprint<R>, hash_scale: f64) -> Result<(), InvalidInput> {
+    if !(hash_scale.is_finite() && hash_scale > 0.0) {
+        return Err(InvalidInput::HashScale(hash_scale));
+    }
+    let named: [(&[&'static str; 3], [R; 3]); 3] = [
+        (&["position.x", "position.y", "position.z"], footprint.position.into()),
+        (&["dpdx.x", "dpdx.y", "dpdx.z"], footprint.dpdx.into()),
+        (&["dpdy.x", "dpdy.y", "dpdy.z"], footprint.dpdy.into()),
+    ];
+    for (names, values) in named {
+        for (&what, value) in names.iter().zip(values) {
+            if !value.is_finite() {
+                return Err(InvalidInput::NotFinite { what, value: value.to_f64() });
+            }
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::hash::sine::Sine;
+    use super::super::hashed::HashedAlpha;
+    use super::*;
+    use glam::{Vec3, dvec3, vec3};
+
+    fn footprints() -> impl Iterator<Item = Footprint<f64>> {
+        (0..4000).map(|i| {
+            let t = f64::from(i);
+            Footprint {
+                position: dvec3(0.37 * t - 700.0, 3.0 - 0.011 * t, 0.013 * t * t),
+                dpdx: dvec3(0.01 + 1e-4 * t, -0.003, 0.0007 * t),
+                dpdy: dvec3(0.002, 0.02 - 7e-6 * t, 0.004),
+            }
+        })
+    }
+
+    #[test]
+    fn without_repairs_it_is_the_listing_bit_for_bit() {
+        for variant in [Variant::Isotropic, Variant::Anisotropic] {
+            let robust = Robust {
+                hash: Sine,
+                join: Join::Interpolate,
+                repairs: Repairs::NONE,
+                variant,
+                hash_scale: 1.0,
+            };
+            let listing = HashedAlpha::listing(variant);
+            for footprint in footprints() {
+                assert_eq!(robust.threshold(&footprint), Ok(listing.threshold(&footprint)));
+                let single: Footprint<f32> = footprint.cast();
+                assert_eq!(robust.threshold(&single), Ok(listing.threshold(&single)));
+            }
+        }
+    }
+
+    #[test]
+    fn bad_input_is_named() {
+        let good = Footprint::<f32> { position: Vec3::ONE, dpdx: Vec3::X, dpdy: Vec3::Y };
+        let robust = Robust::new(Variant::Isotropic);
+        let bad = Footprint { dpdx: vec3(0.0, f32::NAN, 0.0), ..good };
+        assert!(matches!(robust.threshold(&bad), Err(InvalidInput::NotFinite { what: "dpdx.y", .. })));
+        for hash_scale in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            let error = Robust { hash_scale, ..robust }.threshold(&good);
+            assert!(matches!(error, Err(InvalidInput::HashScale(_))), "{error:?}");
+        }
+    }
+
+    #[test]
+    fn no_derivative_at_all_still_gives_a_threshold() {
+        let still = Footprint::<f32> { position: vec3(1e5, 3.0, -7.0), dpdx: Vec3::ZERO, dpdy: Vec3::ZERO };
+        for variant in [Variant::Isotropic, Variant::Anisotropic] {
+            let threshold = Robust::new(variant).threshold(&still).unwrap();
+            assert!(threshold > 0.0 && threshold <= 1.0);
+        }
+        let origin = Footprint { position: Vec3::ZERO, ..still };
+        assert!(Robust::new(Variant::Anisotropic).threshold(&origin).is_ok());
+    }
+
+    #[test]
+    fn every_join_agrees_where_only_one_octave_counts() {
+        // A derivative of 2^-6 exactly: all weight is on the coarse cell.
+        let footprint = Footprint::<f64> {
+            position: dvec3(0.31, -1.72, 2.43),
+            dpdx: dvec3(0.015_625, 0.0, 0.0),
+            dpdy: dvec3(0.0, 0.015_625, 0.0),
+        };
+        let of = |join| Robust { join, ..Robust::new(Variant::Isotropic) }.threshold(&footprint).unwrap();
+        assert_eq!(of(Join::Interpolate), of(Join::Dithered));
+        assert!((of(Join::Interpolate) - of(Join::Copula)).abs() < 1e-15);
+    }
+}

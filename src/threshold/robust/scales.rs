@@ -1,0 +1,122 @@
+//! From a footprint to the octaves along each axis, whatever the footprint.
+
+use super::repairs::{Repair, Repairs};
+use crate::threshold::footprint::Footprint;
+use crate::threshold::hash::{Cell, octave_word};
+use crate::threshold::real::Real;
+use crate::threshold::two_scale::{Variant, length};
+
+/// The octave and the place within it along each axis. Isotropic scales hold the same value three times.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scales<R: Real> {
+    /// Object units per pixel.
+    pub max_derivative: [R; 3],
+    /// Cells per object unit before they are cut to octaves.
+    pub pixel_scale: [R; 3],
+    /// Octave of the coarse cells: 2^octave of them per object unit.
+    pub octave: [i32; 3],
+    /// Octave of the fine cells, one above.
+    pub next_octave: [i32; 3],
+    /// Where between the two the scale lies, in [0, 1).
+    pub fraction: [R; 3],
+}
+
+/// No side of a cell is below this share of the largest coordinate: 2^-21, so that indices stay below 2^22 and an
+/// `f32` position has three bits left within a cell.
+const LEAST_SHARE_OF_COORDINATE: f64 = 1.0 / 2_097_152.0;
+
+/// No side of a cell is below this share of its longest side: 2^-5, a power of two, so that a side at the limit
+/// changes its octave together with the longest one.
+const LEAST_SHARE_OF_LONGEST: f64 = 1.0 / 32.0;
+
+/// The longest side of a cell stays between these, where neither it nor its inverse nor an index overflows.
+fn side_bounds<R: Real>() -> [R; 2] {
+    let exponent = if R::NAME == f32::NAME { 100.0 } else { 1000.0 };
+    [-exponent, exponent].map(|exponent| R::from_f64(libm::exp2(exponent)))
+}
+
+/// Finds the octaves of a footprint. `variant` is isotropic, or anisotropic; other variants count as isotropic.
+#[must_use]
+pub fn scales<R: Real>(
+    variant: Variant,
+    footprint: &Footprint<R>,
+    hash_scale: R,
+    repairs: Repairs,
+) -> Scales<R> {
+    let floors = repairs.contains(Repair::DerivativeFloor);
+    let measure = if floors { safe_length } else { length };
+    let (dx, dy): ([R; 3], [R; 3]) = (footprint.dpdx.into(), footprint.dpdy.into());
+    let anisotropic = variant == Variant::Anisotropic;
+    let max_derivative = if anisotropic {
+        [0, 1, 2].map(|axis| Real::max(dx[axis].abs(), dy[axis].abs()))
+    } else {
+        [Real::max(measure(dx), measure(dy)); 3]
+    };
+    // Listing 2 shortens its sides by sqrt(1/2), so that a cell's diagonal in the screen plane counts.
+    let numerator = R::from_f64(if anisotropic { 0.707 } else { 1.0 });
+    let side = if floors {
+        let [smallest, greatest] = side_bounds::<R>();
+        // Zero times infinity cannot happen: neither factor is infinite.
+        let hash_scale = Real::clamp(hash_scale, smallest, greatest);
+        let side = max_derivative.map(|derivative| hash_scale * Real::min(derivative, greatest));
+        floored(side, footprint.position.into())
+    } else {
+        max_derivative.map(|derivative| hash_scale * derivative)
+    };
+    let pixel_scale = side.map(|side| numerator / side);
+    let log_scale = pixel_scale.map(R::log2);
+    let floor = log_scale.map(R::floor);
+    let one = R::from_f64(1.0);
+    let one_log2 = repairs.contains(Repair::OneLog2);
+    let octave = floor.map(R::to_i32);
+    let next_octave =
+        if one_log2 { octave.map(|k| k.saturating_add(1)) } else { log_scale.map(|l| l.ceil().to_i32()) };
+    let below_one = R::from_f64(1.0 - 1.0 / 16_777_216.0);
+    let fraction = log_scale.map(|l| {
+        let fraction = l.fract();
+        if one_log2 && fraction >= one { below_one } else { fraction }
+    });
+    Scales { max_derivative, pixel_scale, octave, next_octave, fraction }
+}
+
+/// Returns the cell of `position` in the grid with 2^octave cells per object unit along each axis.
+///
+/// With [`Repair::NestedPhase`] the cells of octave k begin 1/3 of a cell below whole numbers where k is even and 2/3
+/// where it is odd; every boundary of one octave is then a boundary of the next one, up to one rounding of 1/3.
+#[must_use]
+pub fn cell<R: Real>(position: R::Vec3, octave: [i32; 3], repairs: Repairs) -> Cell<R> {
+    let position: [R; 3] = position.into();
+    let index = [0, 1, 2].map(|axis| {
+        let scaled = R::from_f64(f64::from(octave[axis])).exp2() * position[axis];
+        let whole = scaled.floor();
+        let third = if octave[axis] & 1 == 0 { 2.0 / 3.0 } else { 1.0 / 3.0 };
+        let beyond = repairs.contains(Repair::NestedPhase) && scaled - whole >= R::from_f64(third);
+        if beyond { whole + R::from_f64(1.0) } else { whole }
+    });
+    let word = if repairs.contains(Repair::OctaveWord) { octave_word(octave) } else { 0 };
+    Cell { index: index.into(), octave: word }
+}
+
+/// Raises sides that are too small for the coordinates or for the longest side, and bounds all.
+fn floored<R: Real>(side: [R; 3], position: [R; 3]) -> [R; 3] {
+    let largest = |v: [R; 3]| Real::max(Real::max(v[0].abs(), v[1].abs()), v[2].abs());
+    let [smallest, greatest] = side_bounds::<R>();
+    let coordinate = largest(position) * R::from_f64(LEAST_SHARE_OF_COORDINATE);
+    let longest = Real::clamp(Real::max(largest(side), coordinate), smallest, greatest);
+    let floor = Real::max(longest * R::from_f64(LEAST_SHARE_OF_LONGEST), Real::min(coordinate, greatest));
+    side.map(|side| Real::clamp(side, floor, longest))
+}
+
+/// Returns the Euclidean length; scaled where the plain sum of squares under- or overflows.
+fn safe_length<R: Real>(v: [R; 3]) -> R {
+    let plain = length(v);
+    let (low, high) = if R::NAME == f32::NAME { (-50.0, 60.0) } else { (-500.0, 500.0) };
+    if plain > R::from_f64(libm::exp2(low)) && plain < R::from_f64(libm::exp2(high)) {
+        return plain;
+    }
+    let largest = Real::max(Real::max(v[0].abs(), v[1].abs()), v[2].abs());
+    if largest == R::from_f64(0.0) || !largest.is_finite() {
+        return largest;
+    }
+    largest * length(v.map(|c| c / largest))
+}

@@ -1,0 +1,405 @@
+//! The binary as a user meets it: streams, exit codes, messages, and the numbers of `eval`.
+
+use std::fs::File;
+use std::io::{BufRead, BufReader, Seek, Write};
+use std::process::{Command, Output, Stdio};
+
+/// Footprints under the letters by which [`STAGES`] names them.
+const ROWS: [(&str, &str); 6] = [
+    ("a", "0.31,-1.72,2.43,0.0121,0.0003,-0.0007,0.0002,0.0094,0.0033"),
+    ("b", "-7.5,0.001,12.25,0.3,0,0.8,0.1,0.3,-0.2"),
+    ("c", "100.125,-250.5,3.75,3.5,-1.25,0.7,0.6,2.5,-4.1"),
+    ("d", "0.001,0.002,-0.003,1e-5,2e-5,-3e-6,4e-6,-1e-5,2.5e-5"),
+    ("e", "0.3,0.4,-0.5,0.25,0,0,0.1,0.2,0.05"),
+    ("f", "1,2,3,2.2,0.3,0.1,0.5,1.7,-0.9"),
+];
+
+/// What a separate Python program makes of [`ROWS`]: every stage by mpmath with 200 bits, out of the stage before as
+/// rounded by IEEE arithmetic in the precision on trial, and the hash by the package mmh3, in units of 2^-24.
+///
+/// A block opens with variant, precision and hash scale. A row holds the columns of `--trace`.
+const STAGES: &str = "\
+isotropic f32 1
+a: 0.01212394319 82.48141506 6 0.3659971742 1823267 13679153 0.3673129938 0.2907153937
+b: 0.8544003899 1.170411442 0 0.22701581 3436591 1093167 0.1731274549 0.08540340654
+c: 4.839421375 0.2066362781 -3 0.7251654803 9397045 16333739 0.8599338085 0.9507815589
+d: 0.0000272213145 36735.91861 15 0.1649037051 11491943 11790235 0.6879050992 0.7250101209
+e: 0.25 4.0 2 0.0 633741 633741 0.03777390718 0.03777390718
+isotropic f64 1.5
+a: 0.01212394325291899374 54.98761028151118462 5 0.781034684451809036 32855 1823267 0.08530788847558094739 0.02127662510735587752
+b: 0.8544003745317531545 0.7802743146408703366 -1 0.642053314726197468 10396237 3436591 0.3533228168713497071 0.2715963538225634026
+c: 4.839421453025144106 0.1377575136073197996 -3 0.1402029139155987062 9397045 16333739 0.6180757112348586295 0.6373297411050632416
+d: 0.00002722131517763240026 24490.61194568816872 14 0.5799412024501009744 6236649 11491943 0.5533939910881996631 0.5920679387196907205
+e: 0.25 2.666666666666666667 1 0.4150374992788437385 3332855 633741 0.1318825170499970352 0.03582028978327999687
+anisotropic f32 1
+a: 0.01209999993 0.009399999864 0.003299999982 58.4297538 75.21276887 214.2424306 5 6 7 0.5873634367 1599687 4285277 0.1893702038 0.07398074758
+b: 0.3000000119 0.3000000119 0.8000000119 2.35666663 2.35666663 0.8837500083 1 1 -1 0.4478319688 11531053 8078907 0.5951566515 0.6685959891
+c: 3.5 2.5 4.099999905 0.2020000049 0.2828000069 0.1724390326 -3 -2 -3 0.4531967596 2151017 16545119 0.5170331608 0.5311504353
+d: 9.999999747e-6 0.00001999999949 0.00002499999937 70700.0035 35350.00175 28280.0014 16 15 14 0.3858764649 7879831 9249555 0.501178226 0.5019185149
+e: 0.25 0.200000003 0.05000000075 2.828000069 3.535000033 14.14000013 1 1 3 0.6930836519 13038603 3730713 0.3926430155 0.3451024397
+anisotropic f64 1.5
+a: 0.01209999999999999964 0.009400000000000000369 0.003299999999999999982 38.95316804407713403 50.141843971631201 142.8282828282828213 5 5 7 0.384525374722492894 10029133 5991655 0.5052459394404994795 0.5085234049058224828
+b: 0.2999999999999999889 0.2999999999999999889 0.8000000000000000444 1.571111111111111084 1.571111111111111084 0.5891666666666666021 0 0 -1 0.5116538625953228122 10248799 16139233 0.7905162756718884721 0.9121854332151380506
+c: 3.5 2.5 4.099999999999999645 0.1346666666666666594 0.1885333333333333231 0.1149593495934959387 -3 -3 -4 0.5188511232025329174 12540525 11788171 0.724206285599117372 0.8476591078031504108
+d: 0.00001000000000000000082 0.00002000000000000000164 0.0000250000000000000012 47133.33333333332693 23566.66666666666347 18853.33333333333141 15 14 14 0.4243035033538480048 284441 15320695 0.3972277790020887091 0.3229825240857488428
+e: 0.25 0.2000000000000000111 0.05000000000000000278 1.885333333333333231 2.356666666666666409 9.426666666666665634 0 1 3 0.4736026959780036416 11199863 15588995 0.7914643137576178808 0.91278263673102894
+linear f32 1
+c: 4.839421375 0.2066362781 4 0.8394212723 2744371 345023 0.1406125278 0.1406125277
+f: 2.222611126 0.449921248 2 0.2226111889 2171753 8077333 0.4030874261 0.4030874372
+linear f64 1.5
+c: 4.839421453025144106 0.1377575136073197996 4 0.8394214530251442596 865049 10638195 0.1451019396813585448 0.1451019396813585383
+f: 2.222611077089287067 0.2999475137772316756 2 0.2226110770892870683 5343855 3731515 0.2438092079182947345 0.2438092079182947181
+single f32 1
+a: 0.01212394319 82.48141506 0 0.0 14412267 14412267 0.8590380549 0.8590380549
+b: 0.8544003899 1.170411442 0 0.0 6334503 6334503 0.3775658011 0.3775658011
+c: 4.839421375 0.2066362781 0 0.0 13583869 13583869 0.8096616864 0.8096616864
+d: 0.0000272213145 36735.91861 0 0.0 1276535 1276535 0.07608741522 0.07608741522
+e: 0.25 4.0 0 0.0 8314221 8314221 0.4955661893 0.4955661893
+single f64 1.5
+a: 0.01212394325291899374 54.98761028151118462 0 0.0 8648705 8648705 0.5155029892921447754 0.5155029892921447754
+b: 0.8544003745317531545 0.7802743146408703366 0 0.0 14690297 14690297 0.8756099343299865723 0.8756099343299865723
+c: 4.839421453025144106 0.1377575136073197996 0 0.0 7502201 7502201 0.4471660256385803223 0.4471660256385803223
+d: 0.00002722131517763240026 24490.61194568816872 0 0.0 9715751 9715751 0.5791038870811462402 0.5791038870811462402
+e: 0.25 2.666666666666666667 0 0.0 8174089 8174089 0.4872136712074279785 0.4872136712074279785
+";
+
+/// The thresholds of rows a to e by the same program: `f32` operation by operation, sine and logarithm by mpmath and
+/// rounded once.
+const LISTINGS: [(&str, [f32; 5]); 2] = [
+    ("isotropic", [0.21174225, 0.39938346, 0.6088355, 0.18137224, 0.41333008]),
+    ("anisotropic", [0.50508404, 0.055537313, 0.49718252, 0.3928979, 0.45371175]),
+];
+
+/// The three columns of axes that do not move are zero, where Listing 2 divides by zero.
+const FLAT: &str = "0.3,0.4,0.5,0.1,0,0,0,0.1,0";
+
+fn command(arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_hashed-alpha"));
+    command.args(arguments).stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    command
+}
+
+/// Runs the program to its end on a text.
+fn run(arguments: &[&str], input: impl AsRef<[u8]>) -> Output {
+    let mut file = tempfile::tempfile().unwrap();
+    file.write_all(input.as_ref()).unwrap();
+    file.rewind().unwrap();
+    command(arguments).stdin(file).output().unwrap()
+}
+
+/// Runs the program where it must succeed; returns its results.
+fn succeed(arguments: &[&str], input: impl AsRef<[u8]>) -> String {
+    let output = run(arguments, input);
+    assert!(output.status.success(), "{arguments:?}: {output:?}");
+    String::from_utf8(output.stdout).unwrap()
+}
+
+/// Asserts that the program ends with exit code 2, these results and one message that starts in this way.
+fn assert_fails(output: &Output, results: &str, message: &str) {
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{stderr}");
+    assert_eq!(String::from_utf8_lossy(&output.stdout), results);
+    assert!(stderr.starts_with(&format!("error: {message}")), "{stderr}");
+}
+
+fn row(letter: &str) -> &'static str {
+    ROWS.iter().find(|(name, _)| *name == letter).unwrap().1
+}
+
+/// Returns the distance from `value` to the next larger magnitude in a precision.
+fn ulp(value: f64, precision: &str) -> f64 {
+    let magnitude = value.abs();
+    match precision {
+        "f32" => f64::from(f32::from_bits((magnitude as f32).to_bits() + 1)) - f64::from(magnitude as f32),
+        _ => f64::from_bits(magnitude.to_bits() + 1) - magnitude,
+    }
+}
+
+/// Reads a printed number in the precision in which it was printed.
+fn number(text: &str, precision: &str) -> f64 {
+    if precision == "f32" { f64::from(text.parse::<f32>().unwrap()) } else { text.parse().unwrap() }
+}
+
+/// The weight is allowed 4 ULP of the logarithm whose fraction it is: that is where it is rounded.
+#[test]
+fn cdf_and_two_scale_stages_are_within_4_ulp_and_integer_hashes_exact_in_every_bit() {
+    let (mut variant, mut precision, mut hash_scale) = ("", "", "");
+    for line in STAGES.lines() {
+        let Some((letter, expected)) = line.split_once(": ") else {
+            let mut words = line.split(' ');
+            [variant, precision, hash_scale] = [(); 3].map(|()| words.next().unwrap());
+            continue;
+        };
+        let options = ["--variant", variant, "--precision", precision, "--hash-scale", hash_scale];
+        let arguments = [&["eval", "--trace", "--hash", "mm4"][..], &options].concat();
+        let results = succeed(&arguments, row(letter));
+        let (names, values) = results.trim_end().split_once('\n').unwrap();
+        let expected: Vec<&str> = expected.split(' ').collect();
+        let (names, values): (Vec<_>, Vec<_>) = (names.split(',').collect(), values.split(',').collect());
+        assert_eq!((names.len(), values.len()), (expected.len(), expected.len()), "{results}");
+        let mut largest_octave = 0.0_f64;
+        for ((name, value), expected) in names.into_iter().zip(values).zip(expected) {
+            let place = format!("{variant} {precision}, row {letter}, {name}: {value}, not {expected}");
+            if name.starts_with("octave") {
+                assert_eq!(value, expected, "{place}");
+                largest_octave = largest_octave.max(value.parse::<f64>().unwrap().abs());
+            } else if name.starts_with("hash") {
+                let units: f64 = expected.parse().unwrap();
+                assert_eq!(number(value, precision) * 16_777_216.0, units, "{place}");
+            } else {
+                let wanted: f64 = expected.parse().unwrap();
+                let scale = if name == "lerp_factor" { largest_octave + 1.0 } else { wanted };
+                let distance = (number(value, precision) - wanted).abs();
+                assert!(distance <= 4.0 * ulp(scale, precision), "{place}");
+            }
+        }
+    }
+}
+
+#[test]
+fn literal_listings_with_the_papers_hash_are_exact_in_every_bit() {
+    let rows: Vec<&str> = ["a", "b", "c", "d", "e"].map(row).to_vec();
+    for (variant, expected) in LISTINGS {
+        let results = succeed(&["eval", "--literal", "--variant", variant], rows.join("\n"));
+        let found: Vec<f32> = results.lines().skip(1).map(|line| line.parse().unwrap()).collect();
+        assert_eq!(found, expected, "{variant}");
+    }
+}
+
+#[test]
+fn precision_decides_how_the_input_is_read() {
+    // 16777217 is no f32, and the single variant at scale 1 finds the cell of the rounded place.
+    let arguments = |precision| ["eval", "--variant", "single", "--hash", "mm4", "--precision", precision];
+    let (odd, even) = ("16777217,0,0,1,0,0,0,1,0", "16777216,0,0,1,0,0,0,1,0");
+    assert_eq!(succeed(&arguments("f32"), odd), succeed(&arguments("f32"), even));
+    assert_ne!(succeed(&arguments("f64"), odd), succeed(&arguments("f64"), even));
+}
+
+#[test]
+fn a_threshold_does_not_depend_on_where_and_how_its_row_is_written() {
+    let expected = succeed(&["eval"], row("a"));
+    assert_eq!(expected.lines().next(), Some("threshold"));
+    let text =
+        format!("# one\r\npx,py,pz,dxx,dxy,dxz,dyx,dyy,dyz\r\n\r\n {}\r\n", row("a").replace(',', " , "));
+    assert_eq!(succeed(&["eval"], &text), expected);
+    assert_eq!(succeed(&["eval", "-"], &text), expected);
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("rows.csv");
+    std::fs::write(&path, text).unwrap();
+    assert_eq!(succeed(&["eval", path.to_str().unwrap()], ""), expected);
+}
+
+#[test]
+fn trace_names_its_columns() {
+    let rest = "lerp_factor,hash_coarse,hash_fine,interpolated,threshold\n";
+    for variant in ["isotropic", "linear", "single"] {
+        let results = succeed(&["eval", "--trace", "--variant", variant], "");
+        assert_eq!(results, format!("max_derivative,pixel_scale,octave,{rest}"));
+    }
+    let axes = ["max_derivative", "pixel_scale", "octave"].map(|name| format!("{name}_x,{name}_y,{name}_z"));
+    let results = succeed(&["eval", "--trace", "--variant", "anisotropic"], "");
+    assert_eq!(results, format!("{},{rest}", axes.join(",")));
+}
+
+#[test]
+fn an_undefined_threshold_is_printed_and_no_error() {
+    assert_eq!(succeed(&["eval", "--variant", "anisotropic", "--literal"], FLAT), "threshold\nNaN\n");
+    let trace = succeed(&["eval", "--variant", "anisotropic", "--literal", "--trace"], FLAT);
+    assert!(trace.contains(",inf,") && trace.ends_with(",NaN\n"), "{trace}");
+}
+
+#[test]
+fn an_empty_input_gives_a_header_and_a_note() {
+    let output = run(&["eval"], "");
+    assert!(output.status.success());
+    assert_eq!(output.stdout, b"threshold\n");
+    assert_eq!(output.stderr, b"note: standard input holds no footprints\n");
+}
+
+#[test]
+fn a_bad_row_is_named_and_the_rows_before_it_are_kept() {
+    let good = row("a");
+    let kept = succeed(&["eval"], good);
+    for (bad, message) in [
+        (good.replacen("0.0003", "o.0003", 1), "column 5 (dxy): `o.0003` is not a number"),
+        (good.replacen("2.43", "NaN", 1), "column 3 (pz): `NaN` is not finite in f32"),
+        (good.replacen("2.43", "-inf", 1), "column 3 (pz): `-inf` is not finite in f32"),
+        (good.replacen("2.43", "1e39", 1), "column 3 (pz): `1e39` is not finite in f32"),
+    ] {
+        let output = run(&["eval"], format!("{good}\n{bad}\n{good}\n"));
+        assert_fails(&output, &kept, &format!("standard input, line 2, {message}"));
+    }
+    let output = run(&["eval"], format!("{good}\n0.1,0.2\n"));
+    assert_fails(&output, &kept, "standard input, line 2: 9 fields are needed, not 2; write px,py,pz,");
+    let output = run(&["eval"], [good.as_bytes(), b"\n0,\xfe,0,0,0,0,0,0,0\n"].concat());
+    assert_fails(&output, &kept, "standard input, line 2, column 2 (py): `\u{fffd}` is not UTF-8 text");
+    let output = run(&["eval"], format!("{good}\n{}", "1".repeat(2 << 20)));
+    assert_fails(&output, &kept, "standard input, line 2: longer than 1048576 bytes");
+}
+
+#[test]
+fn another_header_is_answered_with_the_right_one() {
+    let output = run(&["eval"], "x,y,z,dxx,dxy,dxz,dyx,dyy,dyz\n");
+    let message =
+        "standard input, line 1, column 1 (px): `x` is no name of the header; it reads px,py,pz,dxx,";
+    assert_fails(&output, "threshold\n", message);
+}
+
+#[test]
+fn files_that_cannot_be_read_are_named() {
+    assert_fails(&run(&["eval", "no such file"], ""), "", "cannot open no such file: ");
+    let folder = tempfile::tempdir().unwrap();
+    let output = run(&["eval", folder.path().to_str().unwrap()], "");
+    assert_eq!(output.status.code(), Some(2), "{output:?}");
+}
+
+#[test]
+fn arguments_without_meaning_are_refused() {
+    for scale in ["0", "-1", "nan", "inf", "1e-50"] {
+        let output = run(&["eval", "--hash-scale", scale], row("a"));
+        assert_eq!(output.status.code(), Some(2), "{scale}");
+        assert!(output.stdout.is_empty());
+    }
+    assert!(run(&["eval", "--hash-scale", "1e-50", "--precision", "f64"], row("a")).status.success());
+    let output = run(&["eval", "--hash", "mm3"], "");
+    assert_eq!(output.status.code(), Some(2));
+    let message = String::from_utf8(output.stderr).unwrap();
+    assert!(message.contains("mm4") && message.contains("xxhash32"), "{message}");
+    for arguments in [&["no-such-verb"][..], &[]] {
+        assert_eq!(run(arguments, "").status.code(), Some(2));
+    }
+}
+
+#[test]
+fn a_reader_that_leaves_is_no_failure() {
+    for arguments in [&["scenes", "fence"][..], &["eval", "-"]] {
+        let mut child = command(arguments).stdin(Stdio::piped()).spawn().unwrap();
+        drop(child.stdout.take());
+        if let Some(mut stdin) = child.stdin.take() {
+            // The program may be gone before it has read all of this.
+            let _ = stdin.write_all(format!("{}\n", row("a")).repeat(10_000).as_bytes());
+        }
+        let output = child.wait_with_output().unwrap();
+        assert!(output.status.success(), "{output:?}");
+        assert!(output.stderr.is_empty(), "{output:?}");
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_an_error() {
+    for arguments in [&["eval"][..], &["scenes"], &["scenes", "wall"], &["--help"], &["--version"]] {
+        let full = File::options().write(true).open("/dev/full").unwrap();
+        let output = command(arguments).stdout(full).output().unwrap();
+        assert_fails(&output, "", "cannot write to standard output: No space left on device");
+    }
+}
+
+#[test]
+fn a_threshold_is_out_before_the_next_row_is_in() {
+    let mut child = command(&["eval"]).stdin(Stdio::piped()).spawn().unwrap();
+    let mut stdin = child.stdin.take().unwrap();
+    let mut lines = BufReader::new(child.stdout.take().unwrap()).lines();
+    writeln!(stdin, "{}", row("a")).unwrap();
+    assert_eq!(lines.next().unwrap().unwrap(), "threshold");
+    let first = lines.next().unwrap().unwrap();
+    writeln!(stdin, "{}", row("a")).unwrap();
+    assert_eq!(lines.next().unwrap().unwrap(), first);
+    drop(stdin);
+    assert!(lines.next().is_none());
+    assert!(child.wait().unwrap().success());
+}
+
+#[test]
+fn every_scene_of_the_list_can_be_evaluated() {
+    let list = succeed(&["scenes"], "");
+    assert!(list.lines().count() >= 3, "{list}");
+    for line in list.lines() {
+        let name = line.split(' ').next().unwrap();
+        for options in [&[][..], &["--quads"], &["--precision", "f64"], &["--quads", "--precision", "f64"]] {
+            let arguments = [&["scenes", name, "--resolution", "24x18"][..], options].concat();
+            let rows = succeed(&arguments, "");
+            let thresholds = succeed(&["eval"], &rows);
+            assert_eq!(rows.lines().count(), thresholds.lines().count(), "{arguments:?}");
+            assert!(rows.lines().count() > 1, "{arguments:?}");
+            assert!(!thresholds.contains("NaN"), "{arguments:?}");
+        }
+    }
+}
+
+#[test]
+fn a_scene_that_does_not_exist_is_answered_with_those_that_do() {
+    let output = run(&["scenes", "fenc"], "");
+    assert_eq!(output.status.code(), Some(2));
+    let message = String::from_utf8(output.stderr).unwrap();
+    assert!(message.contains("'fence'") && message.contains("wall"), "{message}");
+    assert_eq!(run(&["scenes", "wall", "--resolution", "0x9"], "").status.code(), Some(2));
+}
+
+#[test]
+fn a_finding_is_a_rejection_until_it_is_known() {
+    let folder = tempfile::tempdir().unwrap();
+    let report = folder.path().join("a/report");
+    let output = run(&["check", "paper:isotropic", "--seed", "7", "--out", report.to_str().unwrap()], "");
+    assert_eq!(output.status.code(), Some(1), "{output:?}");
+    let remarks = String::from_utf8(output.stderr).unwrap();
+    assert!(remarks.starts_with("note: seed 7, "), "{remarks}");
+    assert!(
+        remarks.contains("unexpected: uniform.constant_z of paper:isotropic in f32 is rejected"),
+        "{remarks}"
+    );
+    assert!(String::from_utf8(output.stdout).unwrap().contains("uniform.constant_z"));
+    assert!(report.join("index.html").is_file());
+
+    let entry = |check: &str, subject: &str, precision: &str| {
+        format!(
+            "[[finding]]\ncheck = '{check}'\nsubject = '{subject}'\nprecision = '{precision}'\nreason = 'why'\n"
+        )
+    };
+    let list = folder.path().join("known.toml");
+    let constant_z = "uniform.constant_z";
+    let entries = [
+        entry(constant_z, "paper:isotropic", "f32"),
+        entry(constant_z, "paper:isotropic", "f64"),
+        entry(constant_z, "nobody", "f32"),
+    ];
+    std::fs::write(&list, entries.concat()).unwrap();
+    let options = ["--seed", "7", "--json", "--no-report", "--expect", list.to_str().unwrap()];
+    let output = run(&[&["check", "paper:isotropic"][..], &options].concat(), "");
+    let remarks = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(0), "{remarks}");
+    for remark in [
+        "known: uniform.constant_z of paper:isotropic in f32: why",
+        "stale: uniform.constant_z of paper:isotropic in f64 is not rejected",
+        "note: known findings that name nothing which was tried: 1",
+    ] {
+        assert!(remarks.contains(remark), "{remarks}");
+    }
+    let lines = String::from_utf8(output.stdout).unwrap();
+    assert!(lines.lines().count() > 2, "{lines}");
+    assert!(lines.lines().all(|line| line.starts_with('{') && line.contains("\"seed\":7")), "{lines}");
+}
+
+#[test]
+fn check_finds_mistakes_before_it_starts() {
+    assert_fails(&run(&["check", "papers"], ""), "", "unknown subject `papers`; known are paper:isotropic, ");
+    let folder = tempfile::tempdir().unwrap();
+    let list = folder.path().join("known.toml");
+    let list = list.to_str().unwrap();
+    assert_fails(&run(&["check", "--expect", list], ""), "", &format!("cannot read {list}: "));
+    std::fs::write(list, "[[finding]]\nchek = 1\n").unwrap();
+    let output = run(&["check", "--expect", list], "");
+    assert_fails(&output, "", &format!("{list}: TOML parse error at line 2, column 1"));
+    let output = run(&["check", "--out", &format!("{list}/report")], "");
+    assert_fails(&output, "", &format!("cannot create {list}/report: "));
+}
+
+#[test]
+fn help_tells_exit_codes_and_examples() {
+    let help = succeed(&["--help"], "");
+    assert!(help.contains("Exit codes:") && help.contains("Examples:"), "{help}");
+    for verb in ["check", "eval", "scenes"] {
+        assert!(succeed(&[verb, "--help"], "").contains("Examples:"), "{verb}");
+    }
+    assert_eq!(succeed(&["--version"], ""), format!("hashed-alpha {}\n", env!("CARGO_PKG_VERSION")));
+}
