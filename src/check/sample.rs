@@ -50,7 +50,7 @@ impl UsedCells {
             .iter()
             .flat_map(|footprint| {
                 let nominal = subject.nominal(footprint);
-                [nominal.floor_cell, nominal.ceil_cell].map(|cell| cell.index.to_array().map(|c| c as i64))
+                [nominal.coarse_cell, nominal.fine_cell].map(|cell| cell.to_array().map(|c| c as i64))
             })
             .collect();
         let fresh = !cells.iter().any(|cell| self.0.contains(cell));
@@ -112,10 +112,8 @@ mod tests {
         let mut rng = seed::rng("sample.independent", 0);
         let samples = independent(&subject, &general_scenes(), 5000, 1000, &mut rng);
         assert_eq!(samples.len(), 5000);
-        let cells: HashSet<_> = samples
-            .iter()
-            .map(|s| subject.nominal(s).floor_cell.index.to_array().map(|c| c as i64))
-            .collect();
+        let cells: HashSet<_> =
+            samples.iter().map(|s| subject.nominal(s).coarse_cell.to_array().map(|c| c as i64)).collect();
         assert_eq!(cells.len(), 5000);
     }
 

@@ -37,7 +37,7 @@ fn neighbours(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
             let found = footprint(&scenes[draw % scenes.len()], &mut rng);
             let first = moved(&found, place, subject.precision);
             // One coarse cell further along the axis, wherever the surface goes.
-            let cell = libm::exp2(-f64::from(subject.nominal(&first).octave[axis]));
+            let cell = 1.0 / subject.nominal(&first).coarse_scale[axis];
             let second = moved(&first, direction * cell, subject.precision);
             if used.claim(subject, &[first, second]) {
                 pairs.extend([first, second]);

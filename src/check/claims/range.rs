@@ -7,20 +7,18 @@ use crate::check::{Evidence, Subject, Verdict};
 use crate::scene::Scene;
 use crate::stats::seed;
 use crate::threshold::footprint::Footprint;
-use crate::threshold::hashed::SMALLEST_THRESHOLD;
 
-/// Every threshold is a number in [1e-6, 1].
+/// Every threshold is a number in (0, 1], so that alpha 0 never passes and alpha 1 always does.
 pub const RANGE: Claim = Claim {
     id: "range",
     anchor: "§5, Listings 1 and 2 (last line)",
-    statement: "every threshold is a number in [1e-6, 1], on every surface, with analytic and with quad derivatives",
+    statement: "every threshold is a number in (0, 1], on every surface, with analytic and with quad derivatives",
     expected: Verdict::Consistent,
     run: range,
 };
 
 fn range(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
     let mut rng = seed::rng(RANGE.id, seed);
-    let smallest = subject.precision.round_scalar(SMALLEST_THRESHOLD);
     let (mut n, mut outside) = (0, 0);
     let mut seen = Vec::new();
     for scene in Scene::all() {
@@ -30,7 +28,7 @@ fn range(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
             scene.footprints().map(|footprint| moved(&footprint, place, subject.precision)).collect();
         footprints.extend(scene.quad_footprints().map(|footprint| footprint.cast::<f64>()));
         let thresholds = subject.thresholds(&footprints);
-        let bad = |threshold: f64| !(smallest..=1.0).contains(&threshold);
+        let bad = |threshold: f64| !(threshold > 0.0 && threshold <= 1.0);
         let count = thresholds.iter().filter(|&&threshold| bad(threshold)).count();
         if let Some(first) = thresholds.iter().position(|&threshold| bad(threshold)) {
             let share = 100.0 * count as f64 / thresholds.len() as f64;
@@ -46,7 +44,7 @@ fn range(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
     Ok(Trial {
         conclusion: Conclusion::Exact { holds: outside == 0 },
         statistic: Some(outside as f64),
-        statistic_name: "thresholds outside [1e-6, 1]".into(),
+        statistic_name: "thresholds outside (0, 1]".into(),
         n: n as u64,
         effect: Some(outside as f64 / n as f64),
         effect_name: "share of footprints",

@@ -8,7 +8,9 @@ use crate::check::tolerance::{POWER, SHIFT_SAMPLES, SHIFTS, SINGLE_LEVEL};
 use crate::check::{Evidence, Subject, Verdict};
 use crate::stats::{poisson_binomial, power, seed};
 use crate::threshold::footprint::Footprint;
+use crate::threshold::robust::Join;
 use crate::threshold::stability::change_probability;
+use crate::threshold::two_scale::Variant;
 
 /// Share of thresholds that a translation along the screen changes.
 pub const TRANSLATE: Claim = Claim {
@@ -87,10 +89,24 @@ fn translate(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
     })
 }
 
-/// The probability that a motion takes a point out of its fine cell: the finer of the two grids decides, since the
-/// coarser one is a union of its cells.
+/// The probability that a motion changes the threshold, from the cells that the subject claims to have.
 fn predicted(subject: &Subject<'_>, here: &Footprint<f64>, motion: glam::DVec3) -> f64 {
     let nominal = subject.nominal(here);
-    let fine = nominal.pixel_scale.map(|scale| libm::exp2(libm::ceil(libm::log2(scale))));
-    change_probability(fine, motion.to_array())
+    let motion = motion.to_array();
+    let coarse = change_probability(nominal.coarse_scale, motion);
+    let fine = change_probability(nominal.fine_scale, motion);
+    match (subject.join, subject.variant) {
+        // The finer of the two grids decides, since a coarse cell is a union of fine ones.
+        (Join::Interpolate | Join::Copula, _) => fine,
+        // The coarse cell chooses, and the fine one counts where it was chosen.
+        (Join::Dithered, Variant::Anisotropic) => {
+            let kept = |axis: usize| {
+                let part = |scale: [f64; 3]| ((motion[axis] * scale[axis]).abs()).min(1.0);
+                let (coarse, fine) = (part(nominal.coarse_scale), part(nominal.fine_scale));
+                1.0 - (coarse + nominal.fraction[axis] * (fine - coarse))
+            };
+            1.0 - (0..3).map(kept).product::<f64>()
+        }
+        (Join::Dithered, _) => coarse + nominal.fraction[0] * (fine - coarse),
+    }
 }

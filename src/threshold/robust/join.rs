@@ -7,12 +7,12 @@
 //! | [`Join::Dithered`] | 2 of 3, 1 and 3 of one dimension | by construction | each cell switches once an octave |
 
 use super::repairs::{Repair, Repairs};
-use super::scales::{Scales, cell};
+use super::scales::{Scales, cell, corner_weight};
 use crate::threshold::cdf::{cdf, cdf_literal};
 use crate::threshold::hash::{Cell, Hash, UnknownName, by_name};
 use crate::threshold::normal::{normal_cdf, normal_quantile};
 use crate::threshold::real::Real;
-use crate::threshold::two_scale::{Variant, length};
+use crate::threshold::two_scale::Variant;
 use core::fmt;
 use core::str::FromStr;
 
@@ -138,13 +138,6 @@ fn interval<R: Real>(coarse: &Cell<R>, axis: usize, octave: i32) -> Cell<R> {
     let index: [R; 3] = coarse.index.into();
     let alone = [index[axis], zero, zero];
     Cell { index: alone.into(), octave: CHOICE ^ ((axis as u32) << 24) ^ (octave as u32 & 0xffff) }
-}
-
-/// The weight of Listing 2: how far a point of the box of octaves lies from its two opposite corners.
-fn corner_weight<R: Real>(fraction: [R; 3]) -> R {
-    let to_floor = length(fraction);
-    let to_ceil = length(fraction.map(|f| R::from_f64(1.0) - f));
-    to_floor / (to_floor + to_ceil)
 }
 
 /// Mixes the corners of the box of octaves by trilinear weights, as normal quantiles of unit variance.

@@ -97,6 +97,15 @@ pub fn cell<R: Real>(position: R::Vec3, octave: [i32; 3], repairs: Repairs) -> C
     Cell { index: index.into(), octave: word }
 }
 
+/// Returns the weight of Listing 2, in [0, 1]: how far a point of the box of octaves lies from its first corner, as a
+/// share of the sum of its distances to both.
+#[must_use]
+pub fn corner_weight<R: Real>(fraction: [R; 3]) -> R {
+    let to_floor = length(fraction);
+    let to_ceil = length(fraction.map(|f| R::from_f64(1.0) - f));
+    to_floor / (to_floor + to_ceil)
+}
+
 /// Raises sides that are too small for the coordinates or for the longest side, and bounds all.
 fn floored<R: Real>(side: [R; 3], position: [R; 3]) -> [R; 3] {
     let largest = |v: [R; 3]| Real::max(Real::max(v[0].abs(), v[1].abs()), v[2].abs());
