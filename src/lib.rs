@@ -1,5 +1,16 @@
-//! Statistical analysis and verification of hashed alpha thresholds.
-#![deny(missing_docs)]
+//! Statistical analysis and verification of hashed alpha thresholds, after Wyman & McGuire, *Improved Alpha Testing
+//! Using Hashed Sampling* (2017).
+//!
+//! | wing | what lives there |
+//! |---|---|
+//! | [`threshold`] | the mathematics: from a footprint to a threshold, literal and robust |
+//! | [`scene`] | cameras and surfaces: where footprints come from |
+//! | [`stats`] | tests with true tails; knows nothing of alpha testing |
+//! | [`check`] | the verdict: claims, subjects, runs |
+//! | `report` (feature `plots`; text, JSON and HTML with `cli`) | what people see |
+//!
+//! Where to begin: [`threshold::robust::Robust`] for a threshold to use, [`threshold::hashed::HashedAlpha`] for the
+//! paper's to the letter, [`check::run`] for a verdict.
 
 pub mod check;
 #[cfg(feature = "plots")]
@@ -7,3 +18,8 @@ pub mod report;
 pub mod scene;
 pub mod stats;
 pub mod threshold;
+
+/// The examples of the README, so that they are compiled and run.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

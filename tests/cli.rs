@@ -70,6 +70,23 @@ const LISTINGS: [(&str, [f32; 5]); 2] = [
     ("anisotropic", [0.50508404, 0.055537313, 0.49718252, 0.3928979, 0.45371175]),
 ];
 
+/// The robust thresholds of rows a to e by a program of the same kind, written from the description of the robust
+/// threshold: octaves, cells and hashes exact, the join by mpmath with 200 bits.
+const ROBUST: &str = "\
+isotropic interpolate f32: 0.2869325563510337397 0.1492595237873893302 0.5600157979662242958 0.9675929432763077906 0.03777390718460083008
+isotropic interpolate f64: 0.2869325488676829514 0.1492595214998501486 0.5600157771429263822 0.967592942722908407 0.03777390718460083008
+isotropic copula f32: 0.3113343822677000418 0.1761401997074746991 0.5610264130607526318 0.9531358135855151267 0.03777390718460083008
+isotropic copula f64: 0.3113343526509751666 0.1761401990122416082 0.5610263944130515811 0.9531358153711679833 0.03777390718460083008
+isotropic dithered f32: 0.2743133902549743652 0.2048367857933044434 0.4726642966270446777 0.9455654025077819824 0.03777390718460083008
+isotropic dithered f64: 0.2743133902549743652 0.2048367857933044434 0.4726642966270446777 0.9455654025077819824 0.03777390718460083008
+anisotropic interpolate f32: 0.2459147127312311945 0.6685960588744317131 0.8343778181761019476 0.2853455236025050437 0.056361139903220809
+anisotropic interpolate f64: 0.2459147638700029696 0.6685960512843812005 0.834377791575465165 0.2853454772118286937 0.05636112203517837182
+anisotropic copula f32: 0.1213611402119795256 0.9509933475828018044 0.06702593311091539762 0.7818842256415246858 0.3515770695167941582
+anisotropic copula f64: 0.1213612636011860636 0.9509933315529448846 0.06702585995224687137 0.7818841422095535191 0.3515771576146063582
+anisotropic dithered f32: 0.08007329702377319336 0.9619732499122619629 0.4726642966270446777 0.1577795147895812988 0.2223678231239318848
+anisotropic dithered f64: 0.08007329702377319336 0.9619732499122619629 0.4726642966270446777 0.1577795147895812988 0.2223678231239318848
+";
+
 /// The three columns of axes that do not move are zero, where Listing 2 divides by zero.
 const FLAT: &str = "0.3,0.4,0.5,0.1,0,0,0,0.1,0";
 
@@ -131,7 +148,7 @@ fn cdf_and_two_scale_stages_are_within_4_ulp_and_integer_hashes_exact_in_every_b
             continue;
         };
         let options = ["--variant", variant, "--precision", precision, "--hash-scale", hash_scale];
-        let arguments = [&["eval", "--trace", "--hash", "mm4"][..], &options].concat();
+        let arguments = [&["eval", "--literal", "--trace", "--hash", "mm4"][..], &options].concat();
         let results = succeed(&arguments, row(letter));
         let (names, values) = results.trim_end().split_once('\n').unwrap();
         let expected: Vec<&str> = expected.split(' ').collect();
@@ -167,6 +184,36 @@ fn literal_listings_with_the_papers_hash_are_exact_in_every_bit() {
 }
 
 #[test]
+fn robust_thresholds_agree_with_a_separate_program_for_every_join() {
+    let rows: Vec<&str> = ["a", "b", "c", "d", "e"].map(row).to_vec();
+    for line in ROBUST.lines() {
+        let (options, expected) = line.split_once(": ").unwrap();
+        let [variant, join, precision] = options.split(' ').collect::<Vec<_>>()[..] else {
+            panic!("{options}")
+        };
+        let arguments = ["eval", "--variant", variant, "--join", join, "--precision", precision];
+        let results = succeed(&arguments, rows.join("\n"));
+        assert_eq!(results.lines().count(), 6, "{results}");
+        for (found, expected) in results.lines().skip(1).zip(expected.split(' ')) {
+            let (found, expected) = (number(found, precision), expected.parse::<f64>().unwrap());
+            let distance = (found - expected).abs();
+            // The weight is rounded in numbers near 1/4 and enters with a slope of up to 2.
+            let tolerance = 4.0 * ulp(expected.max(0.25), precision);
+            assert!(distance <= tolerance, "{options}: {found}, not {expected}");
+        }
+    }
+}
+
+#[test]
+fn a_repair_that_is_left_out_brings_its_defect_back() {
+    let flat = &["eval", "--variant", "anisotropic", "--join", "interpolate"][..];
+    assert!(!succeed(flat, FLAT).contains("NaN"));
+    assert!(succeed(&[flat, &["--without", "derivative-floor"]].concat(), FLAT).contains("NaN"));
+    let output = run(&["eval", "--literal", "--join", "copula"], row("a"));
+    assert_fails(&output, "", "--join and --without change the robust threshold");
+}
+
+#[test]
 fn precision_decides_how_the_input_is_read() {
     // 16777217 is no f32, and the single variant at scale 1 finds the cell of the rounded place.
     let arguments = |precision| ["eval", "--variant", "single", "--hash", "mm4", "--precision", precision];
@@ -198,6 +245,11 @@ fn trace_names_its_columns() {
     }
     let axes = ["max_derivative", "pixel_scale", "octave"].map(|name| format!("{name}_x,{name}_y,{name}_z"));
     let results = succeed(&["eval", "--trace", "--variant", "anisotropic"], "");
+    assert_eq!(
+        results,
+        format!("{},lerp_factor_x,lerp_factor_y,lerp_factor_z,{}", axes.join(","), &rest[12..])
+    );
+    let results = succeed(&["eval", "--trace", "--variant", "anisotropic", "--literal"], "");
     assert_eq!(results, format!("{},{rest}", axes.join(",")));
 }
 

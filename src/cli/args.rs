@@ -5,6 +5,7 @@ use clap::{Parser, Subcommand};
 use hashed_alpha::check::subject::Precision;
 use hashed_alpha::scene::Scene;
 use hashed_alpha::threshold::hash::HashKind;
+use hashed_alpha::threshold::robust::{Join, Repair};
 use hashed_alpha::threshold::two_scale::Variant;
 use std::path::PathBuf;
 
@@ -16,10 +17,11 @@ Exit codes:
   3  no verdict: a subject could not be tried
 
 Examples:
-  hashed-alpha check                             try every claim on every subject
+  hashed-alpha check paper                       try every claim on the paper's listings
+  hashed-alpha check robust                      the threshold with every repair
   hashed-alpha check paper:isotropic --json      one subject, one JSON object a claim
   hashed-alpha scenes fence | hashed-alpha eval  thresholds of a scene
-  hashed-alpha eval --trace --hash mm4 rows.csv  every step on the way to a threshold";
+  hashed-alpha eval --literal --trace rows.csv   every step of Listing 1";
 
 /// Verifies the hashed alpha threshold of Wyman and McGuire (2017).
 ///
@@ -48,9 +50,10 @@ pub enum Verb {
 #[command(after_help = "\
 Examples:
   hashed-alpha check
+  hashed-alpha check paper robust
   hashed-alpha check paper:anisotropic --seed 7 --out report-7
-  hashed-alpha check --json --no-report | jq 'select(.verdict == \"rejected\")'
-  hashed-alpha check --expect known.toml
+  hashed-alpha check paper --json --no-report | jq 'select(.verdict == \"rejected\")'
+  hashed-alpha check paper --expect findings.toml
 
 A file of known findings makes the exit code speak of news alone:
   [[finding]]
@@ -59,9 +62,12 @@ A file of known findings makes the exit code speak of news alone:
   precision = \"f32\"
   reason = \"all cells of one z share a bias\"")]
 pub struct CheckArgs {
-    /// Subjects to try, as in `paper:isotropic` or `paper`; all when none is given
+    /// Subjects to try: `paper`, `robust`, or one variant of them as in `paper:isotropic`; `robust` when none is given
     #[arg(value_name = "SUBJECT")]
     pub subjects: Vec<String>,
+    /// Try the paper's listings to the letter: the same as the subject `paper`
+    #[arg(long, conflicts_with = "subjects")]
+    pub literal: bool,
     /// Print JSON Lines in place of the table
     #[arg(long)]
     pub json: bool,
@@ -87,7 +93,8 @@ pub struct CheckArgs {
 #[command(after_help = "\
 Examples:
   echo 0.3,-1.7,2.4,0.012,0,0,0,0.009,0.003 | hashed-alpha eval
-  hashed-alpha eval --variant anisotropic --hash mm4 --precision f64 rows.csv
+  hashed-alpha eval --variant anisotropic --join dithered --precision f64 rows.csv
+  hashed-alpha eval --literal rows.csv
   hashed-alpha scenes fence | hashed-alpha eval --trace > trace.csv")]
 pub struct EvalArgs {
     /// File to read; - is standard input
@@ -96,16 +103,22 @@ pub struct EvalArgs {
     /// How scales are chosen from the derivatives
     #[arg(long, default_value = "isotropic", value_parser = one_of(Variant::ALL, Variant::name))]
     pub variant: Variant,
-    /// What gives a cell its value
-    #[arg(long, default_value = "sine", value_parser = one_of(HashKind::ALL, HashKind::name))]
-    pub hash: HashKind,
+    /// What gives a cell its value; mm4 unless stated, sine as in the paper with --literal, linear and single
+    #[arg(long, value_parser = one_of(HashKind::ALL, HashKind::name))]
+    pub hash: Option<HashKind>,
+    /// How the hashes of two octaves become one value; interpolate unless stated, copula for anisotropic
+    #[arg(long, value_parser = one_of(Join::ALL, Join::name))]
+    pub join: Option<Join>,
+    /// Leave out one repair of the robust threshold; can be given several times
+    #[arg(long, value_name = "REPAIR", value_parser = one_of(Repair::ALL, Repair::name))]
+    pub without: Vec<Repair>,
     /// Type in which input is read and everything computed
     #[arg(long, default_value = "f32", value_parser = one_of(Precision::ALL, Precision::name))]
     pub precision: Precision,
     /// Size of the noise in pixels, above 0
     #[arg(long, value_name = "S", default_value_t = 1.0, allow_negative_numbers = true)]
     pub hash_scale: f64,
-    /// Follow the listings to the letter, with their division by zero
+    /// Follow the listings to the letter, with their division by zero, in place of the robust threshold
     #[arg(long)]
     pub literal: bool,
     /// Write every step in place of the threshold alone
@@ -168,10 +181,10 @@ mod tests {
     }
 
     #[test]
-    fn eval_defaults_to_the_paper() {
+    fn eval_defaults_to_the_robust_threshold_of_one_scale() {
         let args = Args::try_parse_from(["hashed-alpha", "eval"]).unwrap();
         let Verb::Eval(eval) = args.verb else { panic!("{args:?}") };
-        assert_eq!((eval.variant, eval.hash), (Variant::Isotropic, HashKind::Sine));
+        assert_eq!((eval.variant, eval.hash, eval.literal), (Variant::Isotropic, None, false));
         assert_eq!((eval.precision, eval.hash_scale), (Precision::F32, 1.0));
     }
 

@@ -16,7 +16,12 @@ use std::path::Path;
 ///
 /// Whatever can be wrong with the arguments comes to light before the first claim is tried.
 pub fn run(args: &CheckArgs) -> Result<Ending, Failure> {
-    let subjects = chosen(Subject::paper(), &args.subjects)?;
+    let typed = match args.subjects.as_slice() {
+        [] if args.literal => &["paper".to_owned()],
+        [] => &["robust".to_owned()],
+        typed => typed,
+    };
+    let subjects = chosen(typed)?;
     let known = args.expect.as_deref().map(known::read).transpose()?.unwrap_or_default();
     let folder = (!args.no_report).then_some(args.out.as_path());
     folder.map_or(Ok(()), create)?;
@@ -51,8 +56,10 @@ fn this_run(seed: u64) -> Run {
     Run { command: command.join(" "), seed, version: env!("CARGO_PKG_VERSION").to_owned() }
 }
 
-/// Picks the subjects whose name was typed, in full or up to a colon; all when nothing was typed.
-fn chosen<'a>(mut all: Vec<Subject<'a>>, typed: &[String]) -> Result<Vec<Subject<'a>>, Failure> {
+/// Picks the subjects whose name was typed, in full or up to a colon.
+fn chosen(typed: &[String]) -> Result<Vec<Subject<'static>>, Failure> {
+    let mut all = Subject::paper();
+    all.extend(Subject::all_repairs());
     let is_meant = |subject: &Subject<'_>, typed: &String| {
         subject.name.strip_prefix(typed).is_some_and(|rest| rest.is_empty() || rest.starts_with(':'))
     };
@@ -61,7 +68,7 @@ fn chosen<'a>(mut all: Vec<Subject<'a>>, typed: &[String]) -> Result<Vec<Subject
         names.dedup();
         return Err(Failure::Usage(format!("unknown subject `{unknown}`; known are {}", names.join(", "))));
     }
-    all.retain(|subject| typed.is_empty() || typed.iter().any(|typed| is_meant(subject, typed)));
+    all.retain(|subject| typed.iter().any(|typed| is_meant(subject, typed)));
     Ok(all)
 }
 
@@ -118,7 +125,7 @@ mod tests {
 
     fn names(typed: &[&str]) -> Result<Vec<String>, String> {
         let typed: Vec<String> = typed.iter().map(ToString::to_string).collect();
-        let found = chosen(Subject::paper(), &typed).map_err(|error| error.to_string())?;
+        let found = chosen(&typed).map_err(|error| error.to_string())?;
         Ok(found.iter().map(|subject| format!("{} {}", subject.name, subject.precision)).collect())
     }
 
@@ -128,7 +135,10 @@ mod tests {
         assert_eq!(names(&["paper", "paper:isotropic"]), names(&["paper"]));
         assert_eq!(names(&["paper"]).unwrap().len(), 4);
         let error = names(&["paper", "pap"]).unwrap_err();
-        assert_eq!(error, "unknown subject `pap`; known are paper:isotropic, paper:anisotropic");
+        assert_eq!(
+            error,
+            "unknown subject `pap`; known are paper:isotropic, paper:anisotropic, robust:isotropic, robust:anisotropic"
+        );
     }
 
     #[test]
