@@ -76,6 +76,8 @@ pub struct Outcome {
     pub seed: u64,
     /// What was found, in words; absent where the claim holds without remark.
     pub finding: Option<String>,
+    /// Why a rejection does not surprise, where a list of known findings names it.
+    pub known: Option<String>,
     /// What was seen, to be drawn.
     pub evidence: Evidence,
 }
@@ -112,6 +114,7 @@ pub(crate) mod tests {
             detectable: None,
             seed: 0,
             finding: None,
+            known: None,
             evidence: Evidence::None,
         }
     }

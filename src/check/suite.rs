@@ -71,6 +71,7 @@ fn judged(work: &[(&Subject<'_>, &Claim)], trials: Vec<Trial>, seed: u64) -> Vec
                 detectable: trial.detectable,
                 seed,
                 finding: (verdict != Verdict::Consistent).then_some(trial.seen),
+                known: None,
                 evidence: trial.evidence,
             }
         })

@@ -20,8 +20,9 @@ pub const PAIR_BINS: usize = 16;
 /// Groups of lerp factors, eight on each side of 1/2: some defects live on one side only.
 pub const LERP_GROUPS: usize = 16;
 
-/// Fewest samples of a group that is tested: ten expected in every bin.
-pub const LEAST_GROUP: usize = 10 * BINS;
+/// Fewest samples of a group that is tested: 64 expected in every bin. A smaller group would only weaken the others,
+/// since all share one level.
+pub const LEAST_GROUP: usize = 64 * BINS;
 
 /// Samples of a claim about a marginal law: sees an excess chi-square of 7e-4 a sample, a tenth of the loss from
 /// leaving out Eq. 2 at a lerp factor of 0.01.
@@ -54,3 +55,114 @@ pub const PLACEMENT: f64 = 8.0;
 
 /// Draws per wanted sample after which a scene counts as too small for the wanted number of distinct cells.
 pub const DRAWS_A_SAMPLE: usize = 8;
+
+// Real surfaces and derivatives.
+
+/// Pairs of frames on each rasterised plane: shows an excess of 0.007 over a share of 0.02, less than grids make that
+/// are not nested, a fortieth of what a plane on the faces of cells makes.
+pub const RASTER_SAMPLES: usize = 1 << 15;
+
+/// Pixels of the rasterised image: a pixel is then about a hundredth of the plane, as on a card in a real frame.
+pub const RASTER_RESOLUTION: [u32; 2] = [256, 192];
+
+/// Half a side of a rasterised plane, in object units.
+pub const PLANE_HALF_SIDE: f64 = 1.0;
+
+/// The image moves by this many pixels between two frames: far below a cell, so that few thresholds should change.
+pub const FRAME_SHIFT: f64 = 0.012;
+
+/// A threshold that moves further between two frames is another draw. The derivatives of two frames differ by their
+/// rounding and by perspective, 1e-3 of an octave at most, and a continuous threshold follows them; a new draw is
+/// nearer than this in one case of 128.
+pub const REDRAW: f64 = 1.0 / 256.0;
+
+/// Pairs of layers: the bias of the `f32` sine hash differs from one to the next.
+pub const LAYER_PAIRS: usize = 8;
+
+/// Samples of each pair of layers: 128 expected in every square.
+pub const LAYER_SAMPLES: usize = 1 << 15;
+
+/// Two layers are at least this far apart along z, in object units: many cells.
+pub const LEAST_LAYER_DISTANCE: f64 = 1.0;
+
+/// Points whose thresholds are followed under zoom, rotation and tilt: a pop in one of 200 points and octaves shows.
+pub const SWEEP_POINTS: usize = 64;
+
+/// Octaves that the scale goes through under zoom: three powers of two along each axis.
+pub const ZOOM_OCTAVES: f64 = 3.0;
+
+/// Octaves by which a tilt to 85 degrees stretches a derivative, log2(1 / cos 85).
+pub const TILT_OCTAVES: f64 = 3.52;
+
+/// Octaves between two views: the steepest join then moves by less than 0.02 a step, where a pop has a mean of 1/3.
+pub const LOG_SCALE_STEP: f64 = 1.0 / 2048.0;
+
+/// Radians between two views of a turn; no scale moves by more than log2(e) octaves a radian.
+pub const TURN_STEP: f64 = 1.0 / 3072.0;
+
+/// Octave from which the views of a sweep begin: cells of an eighth of a unit, of which [`PLACEMENT`] holds a million.
+pub const FINEST_VIEW: f64 = 3.0;
+
+/// Most that interpolation moves per octave of the scale. Eq. 2: |d tau / d l| <= 1 / (2 (1 - a)^2) <= 2; the weight of
+/// Listing 2 moves by at most |d f| / sqrt 3, since the distances to two opposite corners add up to sqrt 3 or more.
+pub const INTERPOLATION_SLOPE: f64 = 2.0;
+
+/// Most that the copula of two cells moves per octave: phi(0) Q / ((1 - l)^2 + l^2)^(3/2), with quantiles up to
+/// Q = 5.42 for hashes that keep 2^-25 away from 0 and 1; 6.12 at l = 1/2.
+pub const COPULA_SLOPE: f64 = 6.2;
+
+/// Most that the copula of eight cells moves per octave of one axis: each of the other two, halfway, adds a factor of
+/// sqrt 2 to [`COPULA_SLOPE`]. The axes add up.
+pub const COPULA_SLOPE_OF_AN_AXIS: f64 = 2.0 * COPULA_SLOPE;
+
+/// What rounding may add to the change between two views, in `f32` and `f64`: 16 roundings of a number below 1, and
+/// for the `f64` copula those of its quantiles.
+pub const POP_ROUNDING: [f64; 2] = [1.0 / 1_048_576.0, 1.0 / 17_592_186_044_416.0];
+
+/// Octaves at whose beginning the threshold is followed: indices in them have one to three digits.
+pub const BOUNDARY_OCTAVES: core::ops::RangeInclusive<i32> = -2..=6;
+
+/// Points at each power of two: log2 and its floor disagree within few roundings, and at every point if at any.
+pub const BOUNDARY_POINTS: usize = 1 << 11;
+
+/// Roundings on each side of a power of two: log2 in `f32` rounds up to two of them to the power up to 2^8.
+pub const BOUNDARY_ULPS: i32 = 8;
+
+/// Octaves by which the other axes are finer there: both derivatives together stay shorter than the first, and no
+/// shorter than the 2^-5 at which a floor would tie them to it.
+pub const OTHER_AXES: [f64; 2] = [0.6, 3.0];
+
+/// Octaves in which the surroundings of the origin are seen: as many as leave the squares of `f32` derivatives finite.
+pub const ORIGIN_OCTAVES: core::ops::Range<i32> = -32..32;
+
+/// Cells along every axis, to both sides, among which cells are drawn.
+pub const SPREAD: f64 = 512.0;
+
+/// Cells between the origin and a window: from 2^24 on `f32` has no neighbouring cells.
+pub const WINDOW_OFFSETS: [f64; 5] = [0.0, 4096.0, 65_536.0, 1_048_576.0, 8_388_608.0];
+
+/// Cells of a window along each axis: flat enough that a bias of single layers of z shows where it grows.
+pub const WINDOW_SIZE: [f64; 3] = [2048.0, 2048.0, 16.0];
+
+/// Samples in each window: 2048 a layer, which shows when the layers have fewer than 750 different values each.
+pub const WINDOW_SAMPLES: usize = 1 << 15;
+
+/// Pairs of a cell and its image: sees a correlation of 0.035.
+pub const MIRROR_PAIRS: usize = 1 << 16;
+
+/// The threshold up to which values are counted: ten times the clamp of the listings, a hundred steps of the lattice.
+pub const ATOM_THRESHOLD: f64 = 1.0e-5;
+
+/// Cells of the block in which they are counted: 2^20 in all, ten expected values; sees a rate six times too high, a
+/// seventh of that of the `f32` sine hash.
+pub const ATOM_BLOCK: [u32; 3] = [64, 128, 128];
+
+/// Distances from the origin at which `f32` positions are tried, in object units: a large level, a city, a country.
+pub const FAR_COORDINATES: [f32; 3] = [1.0e4, 1.0e5, 1.0e6];
+
+/// Sizes of a pixel there, in units in the last place of the coordinate: from quads with one position to quads with a
+/// derivative of one or two units.
+pub const FAR_FOOTPRINTS: [f64; 4] = [0.05, 0.2, 0.5, 1.5];
+
+/// Quads of each size at each distance: a share is known to a hundredth.
+pub const FAR_QUADS: usize = 1 << 13;

@@ -26,7 +26,11 @@ pub fn run(args: &CheckArgs) -> Result<Ending, Failure> {
     let folder = (!args.no_report).then_some(args.out.as_path());
     folder.map_or(Ok(()), create)?;
 
-    let outcomes = tried(&subjects, args.seed);
+    let mut outcomes = tried(&subjects, args.seed);
+    let judgement = judge(&outcomes, &known.expectations);
+    for &index in &judgement.known {
+        outcomes[index].known = Some(known.reason(&outcomes[index]).to_owned());
+    }
     if let Some(folder) = folder {
         directory::write_report(folder, &outcomes, &this_run(args.seed))?;
         output::remark("note", format_args!("the report is in {}", folder.join("index.html").display()));
@@ -39,7 +43,6 @@ pub fn run(args: &CheckArgs) -> Result<Ending, Failure> {
     };
     written.and_then(|()| results.flush()).map_err(Failure::Output)?;
 
-    let judgement = judge(&outcomes, &known.expectations);
     explain(&outcomes, &known, &judgement);
     Ok(ending(&outcomes, &judgement))
 }
@@ -87,11 +90,6 @@ fn explain(outcomes: &[Outcome], known: &Known, judgement: &Judgement) {
     for &index in &judgement.unexpected {
         let Outcome { check, subject, precision, verdict, .. } = &outcomes[index];
         output::remark("unexpected", format_args!("{check} of {subject} in {precision} is {verdict}"));
-    }
-    for &index in &judgement.known {
-        let Outcome { check, subject, precision, .. } = &outcomes[index];
-        let reason = known.reason(&outcomes[index]);
-        output::remark("known", format_args!("{check} of {subject} in {precision}: {reason}"));
     }
     for &index in &judgement.stale {
         let Expectation { check, subject, precision } = &known.expectations[index];
@@ -161,6 +159,7 @@ mod tests {
             detectable: None,
             seed: 0,
             finding: None,
+            known: None,
             evidence: check::Evidence::None,
         };
         let ending_of = |verdicts: &[Verdict]| {

@@ -23,6 +23,7 @@ pub fn consistent() -> Outcome {
         detectable: Some(1.6e-4),
         seed: 18_446_744_073_709_551_615,
         finding: None,
+        known: None,
         evidence: Evidence::Histograms(vec![NamedHistogram {
             name: "all".to_owned(),
             counts: vec![9, 11, 10, 10],

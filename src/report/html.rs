@@ -107,6 +107,7 @@ fn class(outcome: &Outcome) -> &'static str {
     match outcome.verdict {
         Verdict::NotApplicable => "idle",
         _ if outcome.as_expected() => "good",
+        Verdict::Rejected if outcome.known.is_some() => "known",
         Verdict::Consistent | Verdict::Rejected => "bad",
         Verdict::Inconclusive | Verdict::Unavailable => "open",
     }
@@ -118,6 +119,9 @@ fn headline(outcomes: &[Outcome]) -> (String, &'static str) {
     let all = outcomes.len();
     let verb = |n: usize| if n == 1 { "is" } else { "are" };
     match (of("bad"), of("open"), of("good")) {
+        (0, 0, _) if of("known") > 0 => {
+            (format!("All {all} claims are as expected, {} of them known findings", of("known")), "known")
+        }
         (0, 0, 0) => ("Nothing was tried".to_owned(), "idle"),
         (0, 0, 1) => ("1 claim is as expected".to_owned(), "good"),
         (0, 0, good) => (format!("All {good} claims are as expected"), "good"),

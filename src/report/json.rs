@@ -28,6 +28,7 @@ struct Line<'a> {
     statement: &'a str,
     statistic_name: &'a str,
     effect_name: &'a str,
+    known: Option<&'a str>,
 }
 
 impl<'a> From<&'a Outcome> for Line<'a> {
@@ -52,6 +53,7 @@ impl<'a> From<&'a Outcome> for Line<'a> {
             statement: outcome.statement,
             statistic_name: &outcome.statistic_name,
             effect_name: outcome.effect_name,
+            known: outcome.known.as_deref(),
         }
     }
 }
@@ -92,7 +94,7 @@ mod tests {
              \"statistic\":61.237,\"n\":1048576,\"p\":0.5386,\"p_holm\":1.0,\"effect\":0.0000584,\
              \"detectable\":0.00016,\"seed\":18446744073709551615,\"finding\":null,\"expected\":\"consistent\",\
              \"statement\":\"Thresholds are uniform for every lerp factor.\",\
-             \"statistic_name\":\"chi-square, 63 dof\",\"effect_name\":\"excess chi-square per sample\"}"
+             \"statistic_name\":\"chi-square, 63 dof\",\"effect_name\":\"excess chi-square per sample\",\"known\":null}"
         );
     }
 
@@ -103,7 +105,7 @@ mod tests {
         for line in &lines {
             let value: serde_json::Value = serde_json::from_str(line).unwrap();
             assert_eq!(value["schema"], 1);
-            assert_eq!(value.as_object().unwrap().len(), 18);
+            assert_eq!(value.as_object().unwrap().len(), 19);
         }
     }
 }

@@ -33,6 +33,7 @@ fn answer(outcome: &crate::check::Outcome) -> &'static str {
     match (outcome.expected, outcome.verdict) {
         (Verdict::Rejected, Verdict::Rejected) => "rejected, as it must be",
         (Verdict::Rejected, Verdict::Consistent) => "not rejected, though it must be",
+        (_, Verdict::Rejected) if outcome.known.is_some() => "rejected, as known",
         (_, Verdict::NotApplicable) => "not applicable",
         (_, verdict) => verdict.name(),
     }

@@ -55,7 +55,11 @@ pub fn summary(outcomes: &[Outcome]) -> String {
     let is_control = |o: &Outcome| o.expected == Verdict::Rejected;
     let counts = [
         (count(&|o| o.verdict == Verdict::Consistent && !is_control(o)), "consistent"),
-        (count(&|o| o.verdict == Verdict::Rejected && !is_control(o)), "rejected"),
+        (count(&|o| o.verdict == Verdict::Rejected && !is_control(o) && o.known.is_none()), "rejected"),
+        (
+            count(&|o| o.verdict == Verdict::Rejected && !is_control(o) && o.known.is_some()),
+            "rejected, as known",
+        ),
         (count(&|o| o.verdict == Verdict::Rejected && is_control(o)), "rejected, as they must be"),
         (count(&|o| o.verdict == Verdict::Consistent && is_control(o)), "not rejected, though they must be"),
         (count(&|o| o.verdict == Verdict::Inconclusive), "inconclusive"),
@@ -74,9 +78,13 @@ pub(super) fn remark(outcome: &Outcome) -> Option<String> {
     let finding = outcome.finding.as_deref().filter(|finding| !finding.is_empty());
     let answered = matches!(outcome.verdict, Verdict::Consistent | Verdict::Rejected);
     let control = (outcome.expected == Verdict::Rejected && answered).then(|| answer(outcome));
-    match (control, finding) {
+    let said = match (control, finding) {
         (Some(control), Some(finding)) => Some(format!("{control}: {finding}")),
         (control, finding) => control.or(finding).map(str::to_owned),
+    };
+    match &outcome.known {
+        Some(reason) => Some(format!("{} (known: {reason})", said.unwrap_or_default())),
+        None => said,
     }
 }
 

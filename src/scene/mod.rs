@@ -4,8 +4,10 @@
 
 pub mod camera;
 pub mod gallery;
+pub mod raster;
 pub mod rectangle;
 
 pub use camera::{Camera, Ray};
 pub use gallery::Scene;
+pub use raster::Raster;
 pub use rectangle::Rectangle;

@@ -3,6 +3,7 @@
 //! | module | place in the paper |
 //! |---|---|
 //! | [`real`] | the arithmetic under every listing |
+//! | [`emulated`] | the same listings under models of a GPU's arithmetic (not in the paper) |
 //! | [`footprint`] | position and its two screen derivatives, the inputs of Listings 1 and 2 |
 //! | [`hash`] | §5.1, §7.2.2, §9, and integer hashes that are not in the paper |
 //! | [`two_scale`] | §5.4.1, §5.4.2, Listings 1 and 2 up to `lerpFactor` |
@@ -16,6 +17,7 @@
 
 pub mod cdf;
 pub mod coverage;
+pub mod emulated;
 pub mod fade_in;
 pub mod fixed;
 pub mod footprint;

@@ -13,13 +13,14 @@ use core::fmt::{Debug, Display};
 use core::ops::{Add, Div, Mul, Neg, Sub};
 use core::str::FromStr;
 
-mod sealed {
+pub(super) mod sealed {
     pub trait Sealed {}
     impl Sealed for f32 {}
     impl Sealed for f64 {}
 }
 
-/// A floating-point type with GLSL semantics: `f32` or `f64`, and no other.
+/// A floating-point type with GLSL semantics: `f32`, `f64`, or a model of another arithmetic
+/// ([`Emulated`](super::emulated::Emulated)), and no other.
 pub trait Real:
     sealed::Sealed
     + Copy
@@ -41,8 +42,11 @@ pub trait Real:
     /// glam's vector of three components of this type.
     type Vec3: Copy + Debug + PartialEq + From<[Self; 3]> + Into<[Self; 3]> + Send + Sync + 'static;
 
-    /// `"f32"` or `"f64"`.
+    /// `"f32"` or `"f64"`, or the name of an emulated arithmetic.
     const NAME: &'static str;
+
+    /// Exponent of the largest power of two: 127 for `f32`, 1023 for `f64`.
+    const MAX_EXPONENT: i32;
 
     /// Rounds to nearest, ties to even.
     #[must_use]
@@ -136,6 +140,7 @@ macro_rules! shared_items {
     ($real:ty, $vec3:ty) => {
         type Vec3 = $vec3;
         const NAME: &'static str = stringify!($real);
+        const MAX_EXPONENT: i32 = <$real>::MAX_EXP - 1;
 
         fn to_word(self) -> u32 {
             self as i64 as u32

@@ -1,6 +1,12 @@
 //! The claims: one file a family. A claim is a sentence about a threshold and the trial that could refute it.
 
+pub mod atoms;
+pub mod cells;
+pub mod continuity;
+pub mod degenerate;
 pub mod independence;
+pub mod layers;
+pub mod planes;
 pub mod range;
 pub mod stability;
 pub mod uniform;
@@ -27,15 +33,29 @@ pub struct Claim {
 }
 
 /// Every claim, in the order of the report.
-pub const ALL: [Claim; 8] = [
+pub const ALL: [Claim; 22] = [
     range::RANGE,
+    degenerate::DEGENERATE,
+    degenerate::FAR_FROM_ORIGIN,
     uniform::MARGINAL,
     uniform::COVERAGE,
     uniform::BY_LERP_FACTOR,
     uniform::WITHOUT_CDF,
     uniform::CONSTANT_Z,
     independence::NEIGHBOURS,
+    layers::PARALLEL,
     stability::TRANSLATE,
+    stability::TRANSLATE_ALIGNED,
+    planes::AXIS_ALIGNED,
+    planes::DYADIC,
+    continuity::ZOOM,
+    continuity::ROTATION,
+    continuity::TILT,
+    continuity::OCTAVE_BOUNDARY,
+    cells::ORIGIN,
+    cells::WINDOW,
+    cells::MIRROR,
+    atoms::ZERO,
 ];
 
 /// What a trial reached, or the trial that ended it early.

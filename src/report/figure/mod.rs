@@ -10,13 +10,17 @@
 //! | [`cdf_family`] | Eq. 2 and its density for several weights |
 //! | [`stability`] | how many thresholds a small shift changes |
 //! | [`noise`] | the thresholds themselves as grey levels |
+//! | [`validity`] | where each arithmetic keeps the law of the hash |
+//! | [`planes`] | bias, flicker and missing thresholds on planes that follow an axis |
 //! | [`evidence`] | what a claim saw |
 
 pub mod before_and_after;
 pub mod cdf_family;
 pub mod evidence;
 pub mod noise;
+pub mod planes;
 pub mod stability;
+pub mod validity;
 
 mod raster;
 mod style;

@@ -31,8 +31,8 @@ const LEAST_SHARE_OF_LONGEST: f64 = 1.0 / 32.0;
 
 /// The longest side of a cell stays between these, where neither it nor its inverse nor an index overflows.
 fn side_bounds<R: Real>() -> [R; 2] {
-    let exponent = if R::NAME == f32::NAME { 100.0 } else { 1000.0 };
-    [-exponent, exponent].map(|exponent| R::from_f64(libm::exp2(exponent)))
+    let exponent = R::MAX_EXPONENT * 100 / 127;
+    [-exponent, exponent].map(|exponent| R::from_f64(libm::exp2(f64::from(exponent))))
 }
 
 /// Finds the octaves of a footprint. `variant` is isotropic, or anisotropic; other variants count as isotropic.
@@ -119,8 +119,9 @@ fn floored<R: Real>(side: [R; 3], position: [R; 3]) -> [R; 3] {
 /// Returns the Euclidean length; scaled where the plain sum of squares under- or overflows.
 fn safe_length<R: Real>(v: [R; 3]) -> R {
     let plain = length(v);
-    let (low, high) = if R::NAME == f32::NAME { (-50.0, 60.0) } else { (-500.0, 500.0) };
-    if plain > R::from_f64(libm::exp2(low)) && plain < R::from_f64(libm::exp2(high)) {
+    // Less than half the range of exponents, so that a square stays within it: 2^-50 and 2^60 in `f32`.
+    let power = |share: i32| R::from_f64(libm::exp2(f64::from(R::MAX_EXPONENT * share / 127)));
+    if plain > power(-50) && plain < power(60) {
         return plain;
     }
     let largest = Real::max(Real::max(v[0].abs(), v[1].abs()), v[2].abs());

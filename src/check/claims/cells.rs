@@ -1,0 +1,230 @@
+//! Cells in odd places: around the origin, far away, and in the mirror.
+
+use super::uniform::reject_outsiders;
+use super::{Attempt, Claim, Conclusion, Trial};
+use crate::check::evidence::NamedHistogram;
+use crate::check::sample::UsedCells;
+use crate::check::tolerance::{
+    BINS, DRAWS_A_SAMPLE, FAMILY_LEVEL, MIRROR_PAIRS, ORIGIN_OCTAVES, POWER, SINGLE_LEVEL, SPREAD,
+    WINDOW_OFFSETS, WINDOW_SAMPLES, WINDOW_SIZE,
+};
+use crate::check::{Evidence, Subject, Verdict};
+use crate::stats::chi_square::{self, ChiSquare};
+use crate::stats::histogram::Histogram;
+use crate::stats::{correlation, ecdf, power, seed};
+use crate::threshold::footprint::Footprint;
+use crate::threshold::two_scale::Variant;
+use glam::{DVec3, dvec3};
+use rand::rngs::Xoshiro256PlusPlus;
+
+/// The law around the object's origin, over its distances.
+pub const ORIGIN: Claim = Claim {
+    id: "cells.origin",
+    anchor: "§5.1 (hash3D at the origin), not in the paper",
+    statement: "next to the object's origin, in every octant, thresholds at different scales are uniform",
+    expected: Verdict::Consistent,
+    run: origin,
+};
+
+/// The law far from the object's origin.
+pub const WINDOW: Claim = Claim {
+    id: "cells.window",
+    anchor: "§5.1 (hash inputs of any size), not in the paper",
+    statement: "thresholds are uniform in windows of cells up to 2^23 cells away from the origin",
+    expected: Verdict::Consistent,
+    run: window,
+};
+
+/// Symmetries of the grid.
+pub const MIRROR: Claim = Claim {
+    id: "cells.mirror",
+    anchor: "§5.1 (hash outputs replace uniform random numbers), not in the paper",
+    statement: "thresholds of mirrored cells and of cells with two coordinates exchanged are uncorrelated",
+    expected: Verdict::Consistent,
+    run: mirror,
+};
+
+/// What a scale is divided by: Listing 2 counts the diagonal of a cell.
+pub(super) fn numerator(variant: Variant) -> f64 {
+    if variant == Variant::Anisotropic { 0.707 } else { 1.0 }
+}
+
+/// A footprint with given logarithms to base two of the cells per object unit; the first counts where a variant has
+/// only one scale.
+pub(super) fn at_scale(
+    variant: Variant,
+    hash_scale: f64,
+    position: DVec3,
+    log_scale: [f64; 3],
+) -> Footprint<f64> {
+    let derivative = log_scale.map(|log| numerator(variant) * libm::exp2(-log) / hash_scale);
+    let dpdx = if variant == Variant::Anisotropic {
+        DVec3::from_array(derivative)
+    } else {
+        dvec3(derivative[0], 0.0, 0.0)
+    };
+    Footprint { position, dpdx, dpdy: dpdx * 0.5 }
+}
+
+/// Draws a cell within [`SPREAD`] of the origin along every axis.
+pub(super) fn draw_cell(rng: &mut Xoshiro256PlusPlus) -> DVec3 {
+    let mut index = || ((2.0 * seed::uniform01(rng) - 1.0) * SPREAD).floor();
+    dvec3(index(), index(), index())
+}
+
+/// Draws a place within an octave along each axis.
+fn fractions(rng: &mut Xoshiro256PlusPlus) -> [f64; 3] {
+    // Away from the ends, so that rounding does not lead into another octave.
+    [0; 3].map(|_| 0.01 + 0.98 * seed::uniform01(rng))
+}
+
+fn origin(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
+    let mut rng = seed::rng(ORIGIN.id, seed);
+    let mut worst: Option<(ecdf::KolmogorovSmirnov, String)> = None;
+    for octant in 0..8_u32 {
+        let sign = DVec3::from_array([1, 2, 4].map(|bit| if octant & bit == 0 { 1.0 } else { -1.0 }));
+        // All weight on one octave, so that no two of the thresholds share a hash.
+        let samples: Vec<Footprint<f64>> = ORIGIN_OCTAVES
+            .map(|octave| {
+                let side = libm::exp2(f64::from(-octave));
+                let mut part = || side * (seed::uniform01(&mut rng) + 1.0) / 1024.0;
+                let position = dvec3(part(), part(), part()) * sign;
+                let scale = [f64::from(octave); 3];
+                subject.precision.round(&at_scale(subject.variant, subject.hash_scale, position, scale))
+            })
+            .collect();
+        let mut values = subject.thresholds(&samples);
+        reject_outsiders(&samples, &values)?;
+        let Ok(distance) = ecdf::kolmogorov_smirnov(&mut values) else { continue };
+        if worst.as_ref().is_none_or(|(w, _)| distance.d > w.d) {
+            let range = format!("from {:.6} to {:.6}", values[0], values[values.len() - 1]);
+            values.dedup();
+            let signs = sign.to_array().map(|s| if s > 0.0 { '+' } else { '-' });
+            let seen = format!(
+                "octant {}: {} different thresholds in {} octaves, {range}",
+                signs.iter().collect::<String>(),
+                values.len(),
+                distance.n
+            );
+            worst = Some((distance, seen));
+        }
+    }
+    let Some((distance, seen)) = worst else {
+        return Ok(Trial::without(Conclusion::Inconclusive, "no octave was tried"));
+    };
+    Ok(Trial {
+        conclusion: Conclusion::Probability((8.0 * distance.dkwm).min(1.0)),
+        statistic: Some(distance.d),
+        statistic_name: "Kolmogorov-Smirnov distance, worst of 8".into(),
+        n: 8 * distance.n,
+        effect: Some(distance.d),
+        effect_name: "largest error in coverage",
+        detectable: Some(power::detectable_distance_ks(distance.n, SINGLE_LEVEL / 8.0, POWER)),
+        seen,
+        evidence: Evidence::None,
+    })
+}
+
+fn window(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
+    let mut rng = seed::rng(WINDOW.id, seed);
+    let directions = [("x", DVec3::X), ("all axes", DVec3::ONE)];
+    let mut tests: Vec<ChiSquare> = Vec::new();
+    let mut evidence = Vec::new();
+    for offset in WINDOW_OFFSETS {
+        for (along, direction) in directions {
+            let samples = window_samples(subject, direction * offset, &mut rng);
+            let values = subject.thresholds(&samples);
+            reject_outsiders(&samples, &values)?;
+            let mut counts = Histogram::new(BINS);
+            counts.extend(values);
+            let name = format!("{offset} cells along {along}");
+            let Ok(test) = chi_square::uniform(counts.counts()) else { continue };
+            tests.push(test);
+            evidence.push(NamedHistogram { name, counts: counts.counts().to_vec() });
+        }
+    }
+    let failed = tests.iter().position(|test| test.p * (tests.len() as f64) < FAMILY_LEVEL);
+    let seen = failed.map_or_else(String::new, |first| {
+        format!(
+            "the first window that is not uniform is {}: chi-square {:.0} over {} dof",
+            evidence[first].name, tests[first].statistic, tests[first].dof
+        )
+    });
+    let n = tests.iter().map(|test| test.n).sum();
+    Ok(Trial::worst_of(&tests, n, seen, Evidence::Histograms(evidence)))
+}
+
+/// Draws footprints whose cells lie in a window that begins at `offset`, no two of which touch the same cell.
+///
+/// At a scale of 1: all weight is on one octave, and positions are exact as far out as the indices of the cells are.
+fn window_samples(subject: &Subject<'_>, offset: DVec3, rng: &mut Xoshiro256PlusPlus) -> Vec<Footprint<f64>> {
+    let mut used = UsedCells::default();
+    let mut samples = Vec::with_capacity(WINDOW_SAMPLES);
+    for _ in 0..WINDOW_SAMPLES * DRAWS_A_SAMPLE {
+        if samples.len() == WINDOW_SAMPLES {
+            break;
+        }
+        let within = WINDOW_SIZE.map(|size| (seed::uniform01(rng) * size).floor());
+        let position = offset + DVec3::from_array(within);
+        let sample = at_scale(subject.variant, subject.hash_scale, position, [0.0; 3]);
+        let sample = subject.precision.round(&sample);
+        if used.claim(subject, &[sample]) {
+            samples.push(sample);
+        }
+    }
+    samples
+}
+
+fn mirror(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
+    type Symmetry = fn(DVec3) -> DVec3;
+    const SYMMETRIES: [(&str, Symmetry); 3] = [
+        ("opposite cells", |v| -v),
+        ("cells opposite in x and y", |v| dvec3(-v.x, -v.y, v.z)),
+        ("cells with x and y exchanged", |v| dvec3(v.y, v.x, v.z)),
+    ];
+    let mut rng = seed::rng(MIRROR.id, seed);
+    let mut used = UsedCells::default();
+    let mut samples: Vec<Footprint<f64>> = Vec::with_capacity(4 * MIRROR_PAIRS);
+    while samples.len() < 4 * MIRROR_PAIRS {
+        let cell = draw_cell(&mut rng);
+        // Corners of cells, so that the mirrored position is the corner of the mirrored cell.
+        let first = at_scale(subject.variant, subject.hash_scale, cell, fractions(&mut rng));
+        // All cells that are their own image have x = y.
+        let on_a_mirror = cell.x == cell.y;
+        let image = |map: Symmetry| {
+            let [position, dpdx, dpdy] = [first.position, first.dpdx, first.dpdy].map(map);
+            subject.precision.round(&Footprint { position, dpdx, dpdy })
+        };
+        let group = [image(|v| v), image(SYMMETRIES[0].1), image(SYMMETRIES[1].1), image(SYMMETRIES[2].1)];
+        if !on_a_mirror && used.claim(subject, &group) {
+            samples.extend(group);
+        }
+    }
+    let values = subject.thresholds(&samples);
+    reject_outsiders(&samples, &values)?;
+    let column = |which: usize| values.iter().skip(which).step_by(4).copied().collect::<Vec<f64>>();
+    let first = column(0);
+    let worst = SYMMETRIES
+        .iter()
+        .enumerate()
+        .filter_map(|(index, (name, _))| {
+            Some((correlation::pearson(&first, &column(index + 1)).ok()?, *name))
+        })
+        .max_by(|a, b| a.0.r.abs().total_cmp(&b.0.r.abs()));
+    let Some((found, name)) = worst else {
+        return Ok(Trial::without(Conclusion::Exact { holds: false }, "the threshold is a constant"));
+    };
+    let tests = SYMMETRIES.len() as f64;
+    let sigma = 1.0 / (found.n as f64 - 1.0).sqrt();
+    Ok(Trial {
+        conclusion: Conclusion::Probability((tests * found.p).min(1.0)),
+        statistic: Some(found.z),
+        statistic_name: "z of the correlation, worst of 3".into(),
+        n: found.n,
+        effect: Some(found.r.abs()),
+        effect_name: "correlation",
+        detectable: Some(power::detectable_shift_z(sigma, SINGLE_LEVEL / tests, POWER)),
+        seen: format!("thresholds of {name} have a correlation of {:+.4}", found.r),
+        evidence: Evidence::None,
+    })
+}

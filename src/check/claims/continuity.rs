@@ -1,0 +1,312 @@
+//! The threshold moves without jumps while the view of a fixed point of the surface does.
+//!
+//! Only the derivatives change: the position stays in its cells. Between two views the threshold may change by no
+//! more than the join allows for the change of the scales; whatever goes beyond is a *pop*. The dithered join is
+//! continuous in law only: it may switch once an octave and axis, at a place of its own in every cell.
+
+use super::cells::{at_scale, draw_cell, numerator};
+use super::range::describe;
+use super::uniform::reject_outsiders;
+use super::{Attempt, Claim, Conclusion, Trial};
+use crate::check::sample::{UsedCells, placement};
+use crate::check::subject::{Nominal, Precision};
+use crate::check::tolerance::{
+    BOUNDARY_OCTAVES, BOUNDARY_POINTS, BOUNDARY_ULPS, COPULA_SLOPE, COPULA_SLOPE_OF_AN_AXIS, FINEST_VIEW,
+    INTERPOLATION_SLOPE, LOG_SCALE_STEP, OTHER_AXES, POP_ROUNDING, SWEEP_POINTS, TILT_OCTAVES, TURN_STEP,
+    ZOOM_OCTAVES,
+};
+use crate::check::{Evidence, Subject, Verdict};
+use crate::stats::{binomial, seed};
+use crate::threshold::footprint::Footprint;
+use crate::threshold::robust::Join;
+use crate::threshold::two_scale::Variant;
+use core::f64::consts::FRAC_PI_2;
+use glam::{DVec2, DVec3, dvec3};
+use rand::rngs::Xoshiro256PlusPlus;
+
+/// No pops while the camera comes closer.
+pub const ZOOM: Claim = Claim {
+    id: "continuity.zoom",
+    anchor: "§5.4.2 (interpolating between two scales), §6.2",
+    statement: "while the camera comes closer, the threshold of a fixed point changes without jumps",
+    expected: Verdict::Consistent,
+    run: |subject, seed| {
+        let zoom = Motion {
+            steps: (ZOOM_OCTAVES / LOG_SCALE_STEP) as usize,
+            length: ZOOM_OCTAVES,
+            monotone: true,
+            effect_name: "pops per point and octave",
+            derivatives: |[u, v], at| {
+                let scale = libm::exp2(-ZOOM_OCTAVES * at);
+                [u * scale, v * scale]
+            },
+        };
+        sweep(subject, &mut seed::rng(ZOOM.id, seed), &zoom)
+    },
+};
+
+/// No pops while the camera turns about its line of sight.
+pub const ROTATION: Claim = Claim {
+    id: "continuity.rotation",
+    anchor: "§6.2 (one scale an axis)",
+    statement: "while the object turns about the line of sight, the threshold of a fixed point changes without jumps",
+    expected: Verdict::Consistent,
+    run: |subject, seed| {
+        let quarter_turn = Motion {
+            steps: (FRAC_PI_2 / TURN_STEP) as usize,
+            length: 1.0,
+            monotone: false,
+            effect_name: "pops per point and quarter turn",
+            derivatives: |[u, v], at| {
+                // A surface at 60 degrees to the screen, so that turning it changes the longer of the derivatives.
+                let turn = DVec2::new(libm::cos(at * FRAC_PI_2), libm::sin(at * FRAC_PI_2));
+                [u * turn.x + 2.0 * v * turn.y, 2.0 * v * turn.x - u * turn.y]
+            },
+        };
+        sweep(subject, &mut seed::rng(ROTATION.id, seed), &quarter_turn)
+    },
+};
+
+/// No pops while the surface tilts away from the camera.
+pub const TILT: Claim = Claim {
+    id: "continuity.tilt",
+    anchor: "§6 (surfaces at grazing angles)",
+    statement: "while the surface tilts to 85 degrees, the threshold of a fixed point changes without jumps",
+    expected: Verdict::Consistent,
+    run: |subject, seed| {
+        let tilt = Motion {
+            steps: (TILT_OCTAVES / LOG_SCALE_STEP) as usize,
+            length: 1.0,
+            monotone: true,
+            effect_name: "pops per point and tilt from 0 to 85 degrees",
+            derivatives: |[u, v], at| [u, v * libm::exp2(TILT_OCTAVES * at)],
+        };
+        sweep(subject, &mut seed::rng(TILT.id, seed), &tilt)
+    },
+};
+
+/// No pop within a few roundings of a power of two.
+pub const OCTAVE_BOUNDARY: Claim = Claim {
+    id: "continuity.octave_boundary",
+    anchor: "§5, Listings 1 and 2 (floor, ceil and fract of log2)",
+    statement: "across a power of two, rounding by rounding, the threshold changes by no more than roundings",
+    expected: Verdict::Consistent,
+    run: octave_boundary,
+};
+
+/// A change of the view of a point.
+struct Motion {
+    /// Number of steps.
+    steps: usize,
+    /// How often the unit of the effect fits into the whole motion.
+    length: f64,
+    /// Whether every scale only grows or only shrinks.
+    monotone: bool,
+    effect_name: &'static str,
+    /// The derivatives at a part in [0, 1] of the motion, from two tangents of equal length at right angles.
+    derivatives: fn([DVec3; 2], f64) -> [DVec3; 2],
+}
+
+fn sweep(subject: &Subject<'_>, rng: &mut Xoshiro256PlusPlus, motion: &Motion) -> Attempt<Trial> {
+    let dithered = subject.join == Join::Dithered;
+    if dithered && !motion.monotone {
+        let reason = "the dithered join switches as often as a scale passes the place of its cell; \
+                      continuity.zoom and continuity.tilt, where each passes once, count the switches";
+        return Ok(Trial::without(Conclusion::NotApplicable, reason));
+    }
+    let mut pops = Pops::default();
+    for _ in 0..SWEEP_POINTS {
+        let position = placement(rng);
+        let tangents = tangents(rng);
+        let views: Vec<Footprint<f64>> = (0..=motion.steps)
+            .map(|step| {
+                let [dpdx, dpdy] = (motion.derivatives)(tangents, step as f64 / motion.steps as f64);
+                subject.precision.round(&Footprint { position, dpdx, dpdy })
+            })
+            .collect();
+        let thresholds = subject.thresholds(&views);
+        reject_outsiders(&views, &thresholds)?;
+        if dithered {
+            pops.add_switches(subject, &views, &thresholds);
+        } else {
+            pops.add_jumps(subject, &views, &thresholds);
+        }
+    }
+    let motions = SWEEP_POINTS as f64 * motion.length;
+    Ok(pops.into_trial(motions, motion.effect_name))
+}
+
+/// Draws two tangents of one length, at right angles, in any direction.
+fn tangents(rng: &mut Xoshiro256PlusPlus) -> [DVec3; 2] {
+    let length = libm::exp2(-FINEST_VIEW - seed::uniform01(rng));
+    let mut direction = || loop {
+        let v = dvec3(seed::uniform01(rng), seed::uniform01(rng), seed::uniform01(rng)) * 2.0 - 1.0;
+        if (0.01..1.0).contains(&v.length_squared()) {
+            return v.normalize();
+        }
+    };
+    let u = direction();
+    loop {
+        if let Some(v) = u.cross(direction()).try_normalize() {
+            return [u * length, v * length];
+        }
+    }
+}
+
+/// Changes that are too large, or too many.
+#[derive(Default)]
+struct Pops {
+    count: u64,
+    steps: u64,
+    sum: f64,
+    largest: f64,
+    first: String,
+}
+
+impl Pops {
+    /// Counts the steps between views that change the threshold by more than the join allows.
+    fn add_jumps(&mut self, subject: &Subject<'_>, views: &[Footprint<f64>], thresholds: &[f64]) {
+        self.steps += views.len() as u64 - 1;
+        let mut before = subject.nominal(&views[0]);
+        for step in 1..views.len() {
+            let after = subject.nominal(&views[step]);
+            let jump = (thresholds[step] - thresholds[step - 1]).abs();
+            if jump > allowed(subject, &before, &after) {
+                self.add(jump, || describe(&views[step], thresholds[step]));
+            }
+            before = after;
+        }
+    }
+
+    /// Counts the switches beyond one an octave and axis.
+    fn add_switches(&mut self, subject: &Subject<'_>, views: &[Footprint<f64>], thresholds: &[f64]) {
+        self.steps += views.len() as u64 - 1;
+        let (Some(first), Some(last)) = (views.first(), views.last()) else { return };
+        let ends = [first, last].map(|view| log_scale(&subject.nominal(view)));
+        let axes = if subject.variant == Variant::Anisotropic { 3 } else { 1 };
+        let mut octaves: f64 =
+            (0..axes).map(|axis| (ends[1][axis].floor() - ends[0][axis].floor()).abs() + 1.0).sum();
+        for step in 1..views.len() {
+            let jump = (thresholds[step] - thresholds[step - 1]).abs();
+            if jump > 0.0 {
+                octaves -= 1.0;
+                if octaves < 0.0 {
+                    self.add(jump, || describe(&views[step], thresholds[step]));
+                }
+            }
+        }
+    }
+
+    fn add(&mut self, jump: f64, place: impl Fn() -> String) {
+        if self.count == 0 {
+            self.first = place();
+        }
+        self.count += 1;
+        self.sum += jump;
+        self.largest = self.largest.max(jump);
+    }
+
+    fn into_trial(self, motions: f64, effect_name: &'static str) -> Trial {
+        let rate = self.count as f64 / motions;
+        Trial {
+            conclusion: Conclusion::Exact { holds: self.count == 0 },
+            statistic: Some(self.count as f64),
+            statistic_name: "pops".into(),
+            n: self.steps,
+            effect: Some(rate),
+            effect_name,
+            detectable: Some(1.0 / motions),
+            seen: format!(
+                "{rate:.3} {effect_name}, by {:.3} in the mean and {:.3} at most; first to {}",
+                self.sum / self.count as f64,
+                self.largest,
+                self.first
+            ),
+            evidence: Evidence::None,
+        }
+    }
+}
+
+/// The logarithm to base two of the cells per object unit along each axis.
+fn log_scale(nominal: &Nominal) -> [f64; 3] {
+    [0, 1, 2].map(|axis| libm::log2(nominal.coarse_scale[axis]) + nominal.fraction[axis])
+}
+
+/// How far two scales are apart along each axis, in octaves.
+fn distance(before: &Nominal, after: &Nominal) -> [f64; 3] {
+    let (before, after) = (log_scale(before), log_scale(after));
+    [0, 1, 2].map(|axis| (after[axis] - before[axis]).abs())
+}
+
+/// The most by which a continuous join changes between two scales.
+fn allowed(subject: &Subject<'_>, before: &Nominal, after: &Nominal) -> f64 {
+    let distance = distance(before, after);
+    let slope = match (subject.join, subject.variant) {
+        (Join::Copula, Variant::Anisotropic) => COPULA_SLOPE_OF_AN_AXIS * distance.iter().sum::<f64>(),
+        (Join::Copula, _) => COPULA_SLOPE * distance[0],
+        _ => INTERPOLATION_SLOPE * distance.into_iter().fold(0.0, f64::max),
+    };
+    slope + rounding(subject.precision)
+}
+
+fn rounding(precision: Precision) -> f64 {
+    POP_ROUNDING[usize::from(precision == Precision::F64)]
+}
+
+fn octave_boundary(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
+    let mut rng = seed::rng(OCTAVE_BOUNDARY.id, seed);
+    let mut pops = Pops::default();
+    let (mut changes, mut expected) = (0, 0.0);
+    let mut used = UsedCells::default();
+    for octave in BOUNDARY_OCTAVES {
+        for _ in 0..BOUNDARY_POINTS {
+            let views = across_octave(subject, octave, &mut rng);
+            if !used.claim(subject, &views[..1]) {
+                continue;
+            }
+            let thresholds = subject.thresholds(&views);
+            reject_outsiders(&views, &thresholds)?;
+            pops.add_jumps(subject, &views, &thresholds);
+            changes += thresholds.windows(2).filter(|pair| pair[0] != pair[1]).count() as u64;
+            let nominal: Vec<Nominal> = views.iter().map(|view| subject.nominal(view)).collect();
+            expected += nominal.windows(2).flat_map(|pair| distance(&pair[0], &pair[1])).sum::<f64>();
+        }
+    }
+    let crossings = pops.steps as f64 / f64::from(2 * BOUNDARY_ULPS);
+    let mut trial = pops.into_trial(crossings, "pops per point and power of two");
+    if subject.join == Join::Dithered {
+        // A switch falls into a step with the probability of its length.
+        trial.conclusion = Conclusion::Probability(binomial::poisson_upper_p(changes, expected));
+    }
+    Ok(trial)
+}
+
+/// Footprints of one point whose scale along one axis goes through 2^octave, one rounding at a time.
+///
+/// The other axes have finer scales in general position, and shorter derivatives in sum.
+fn across_octave(subject: &Subject<'_>, octave: i32, rng: &mut Xoshiro256PlusPlus) -> Vec<Footprint<f64>> {
+    let side = libm::exp2(f64::from(-octave));
+    let position = draw_cell(rng) * side + side * dvec3(0.4, 0.3, 0.6);
+    let axis = (3.0 * seed::uniform01(rng)) as usize;
+    let [low, high] = OTHER_AXES;
+    let log_scale = [0, 1, 2]
+        .map(|a| f64::from(octave) + if a == axis { 0.0 } else { low + (high - low) * seed::uniform01(rng) });
+    let others = at_scale(Variant::Anisotropic, subject.hash_scale, position, log_scale);
+    let at_boundary = numerator(subject.variant) * side / subject.hash_scale;
+    (-BOUNDARY_ULPS..=BOUNDARY_ULPS)
+        .map(|ulps| {
+            let mut dpdy = others.dpdx;
+            dpdy[axis] = 0.0;
+            let dpdx = DVec3::AXES[axis] * ulps_away(subject.precision, at_boundary, ulps);
+            subject.precision.round(&Footprint { position, dpdx, dpdy })
+        })
+        .collect()
+}
+
+/// The number that is so many roundings above `x` > 0.
+fn ulps_away(precision: Precision, x: f64, ulps: i32) -> f64 {
+    match precision {
+        Precision::F32 => f64::from(f32::from_bits((x as f32).to_bits().wrapping_add_signed(ulps))),
+        Precision::F64 => f64::from_bits(x.to_bits().wrapping_add_signed(i64::from(ulps))),
+    }
+}

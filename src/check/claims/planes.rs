@@ -1,0 +1,202 @@
+//! Planes on which real models lie: parallel to two axes, at zero, at a tenth, at a half, at a whole number.
+//!
+//! The closed form for the share of thresholds that a motion changes is about positions that are spread evenly over
+//! the cells. On a plane of constant z the coordinate z is the same everywhere, up to the rounding of the rasteriser:
+//! where a listing divides by that rounding, or cuts its cells just there, thresholds change from frame to frame.
+//!
+//! Every sample has a camera and a place of its own, so samples are independent; the constant coordinate stays exact.
+
+use super::range::describe;
+use super::stability::predicted;
+use super::{Attempt, Claim, Conclusion, Trial};
+use crate::check::evidence::ComparedShare;
+use crate::check::sample::placement;
+use crate::check::tolerance::{
+    FRAME_SHIFT, PLANE_HALF_SIDE, POWER, RASTER_RESOLUTION, RASTER_SAMPLES, REDRAW, SINGLE_LEVEL,
+};
+use crate::check::{Evidence, Subject, Verdict};
+use crate::scene::{Camera, Raster, Rectangle};
+use crate::stats::seed::uniform01;
+use crate::stats::{poisson_binomial, power, seed};
+use crate::threshold::footprint::Footprint;
+use glam::{DVec2, DVec3, dvec2, dvec3};
+use rand::rngs::Xoshiro256PlusPlus;
+use std::f64::consts::TAU;
+
+/// Planes at zero and at decimal fractions: one coordinate has no derivative, or only rounding.
+pub const AXIS_ALIGNED: Claim = Claim {
+    id: "planes.axis_aligned",
+    anchor: "§6.2, Listing 2; rasterised planes not in the paper",
+    statement: "on planes of constant y or z = 0, 0.1, 0.3 every threshold is a number in (0, 1], and a shift of \
+                0.012 pixels redraws no more of them than the size of the cells predicts",
+    expected: Verdict::Consistent,
+    run: |subject, seed| trial(&AXIS_ALIGNED, &[0.0, 0.1, 0.3], subject, seed),
+};
+
+/// Planes at powers of two and whole numbers: faces of cells in every octave, for cells cut at whole numbers.
+pub const DYADIC: Claim = Claim {
+    id: "planes.dyadic",
+    anchor: "§5, Listings 1 and 2 (floor of the scaled position); rasterised planes not in the paper",
+    statement: "on planes of constant y or z = 0.5, 1, 2, 3 every threshold is a number in (0, 1], and a shift of \
+                0.012 pixels redraws no more of them than the size of the cells predicts",
+    expected: Verdict::Consistent,
+    run: |subject, seed| trial(&DYADIC, &[0.5, 1.0, 2.0, 3.0], subject, seed),
+};
+
+/// One pixel before and after the image moved by a fraction of it.
+struct Seen {
+    before: Footprint<f64>,
+    after: Footprint<f64>,
+    /// How far apart the two points of the surface are in truth, in object units.
+    motion: DVec3,
+}
+
+/// What was counted on one plane.
+#[derive(Default)]
+struct Counts {
+    /// Pixels with a threshold in both frames.
+    valid: usize,
+    /// Pixels with a threshold that is no number in (0, 1], in one frame or the other.
+    invalid: usize,
+    /// Valid pixels with another threshold afterwards.
+    redrawn: usize,
+    /// Sum of the probabilities of a change at the valid pixels, and of their variances.
+    mean: f64,
+    variance: f64,
+    first_invalid: Option<String>,
+}
+
+impl Counts {
+    fn words(&self) -> String {
+        let mut words = Vec::new();
+        if self.invalid > 0 {
+            let share = self.invalid as f64 / (self.valid + self.invalid) as f64;
+            words.push(format!("{:.1} % are no number in (0, 1]", 100.0 * share));
+        }
+        if self.valid > 0 {
+            let share = |count: f64| 100.0 * count / self.valid as f64;
+            let (measured, predicted) = (share(self.redrawn as f64), share(self.mean));
+            words.push(format!("{measured:.2} % redrawn for {predicted:.2} % predicted"));
+        }
+        words.join(", ")
+    }
+}
+
+fn trial(claim: &Claim, offsets: &[f64], subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
+    let mut rng = seed::rng(claim.id, seed);
+    let (mut points, mut seen, mut first_invalid) = (Vec::new(), Vec::new(), None);
+    let (mut least_p, mut worst_z) = (1.0_f64, f64::NEG_INFINITY);
+    let (mut n, mut invalid) = (0, 0);
+    for (normal, name) in [(2, "z"), (1, "y")] {
+        for &offset in offsets {
+            let counts = counts(subject, normal, offset, &mut rng);
+            seen.push(format!("{name} = {offset}: {}", counts.words()));
+            n += counts.valid + counts.invalid;
+            invalid += counts.invalid;
+            if counts.valid > 0 {
+                let test =
+                    poisson_binomial::sum_of_events(counts.redrawn as u64, counts.mean, counts.variance);
+                // One side: a new threshold too close to the old one is missing from the count.
+                least_p = least_p.min(if test.z > 0.0 { 0.5 * test.p } else { 1.0 });
+                worst_z = worst_z.max(test.z);
+                let valid = counts.valid as f64;
+                points.push(ComparedShare {
+                    series: format!("planes of constant {name}"),
+                    x: offset,
+                    measured: counts.redrawn as f64 / valid,
+                    predicted: counts.mean / valid,
+                    sigma: counts.variance.sqrt() / valid,
+                });
+            }
+            first_invalid = first_invalid.or(counts.first_invalid);
+        }
+    }
+    if let Some(first) = first_invalid {
+        seen.push(format!("first {first}"));
+    }
+    let excess = points.iter().map(|point| point.measured - point.predicted).reduce(f64::max);
+    let sigma = points.iter().map(|point| point.sigma).reduce(f64::min);
+    let (conclusion, statistic, statistic_name) = if invalid > 0 {
+        (Conclusion::Exact { holds: false }, invalid as f64, "thresholds outside (0, 1]".into())
+    } else {
+        let p = (least_p * points.len() as f64).min(1.0);
+        (Conclusion::Probability(p), worst_z, format!("z, worst of {}", points.len()))
+    };
+    Ok(Trial {
+        conclusion,
+        statistic: Some(statistic),
+        statistic_name,
+        n: n as u64,
+        effect: excess,
+        effect_name: "excess in the share that is redrawn",
+        detectable: sigma.map(|sigma| power::detectable_shift_z(sigma, SINGLE_LEVEL, POWER)),
+        seen: seen.join("; "),
+        evidence: Evidence::Comparison(points),
+    })
+}
+
+fn counts(subject: &Subject<'_>, normal: usize, offset: f64, rng: &mut Xoshiro256PlusPlus) -> Counts {
+    let samples: Vec<Seen> = (0..RASTER_SAMPLES).map(|_| draw(normal, offset, rng)).collect();
+    let thresholds =
+        |of: fn(&Seen) -> Footprint<f64>| subject.thresholds(&samples.iter().map(of).collect::<Vec<_>>());
+    let (before, after) = (thresholds(|seen| seen.before), thresholds(|seen| seen.after));
+    let is_valid = |threshold: f64| threshold > 0.0 && threshold <= 1.0;
+    let mut counts = Counts::default();
+    for ((seen, old), new) in samples.iter().zip(before).zip(after) {
+        if is_valid(old) && is_valid(new) {
+            let probability = predicted(subject, &seen.before, seen.motion);
+            counts.valid += 1;
+            counts.mean += probability;
+            counts.variance += probability * (1.0 - probability);
+            counts.redrawn += usize::from((old - new).abs() > REDRAW);
+        } else {
+            let (footprint, threshold) = if is_valid(old) { (&seen.after, new) } else { (&seen.before, old) };
+            counts.invalid += 1;
+            counts.first_invalid.get_or_insert_with(|| describe(footprint, threshold));
+        }
+    }
+    counts
+}
+
+/// Draws cameras until one sees the plane, at a pixel that still sees it in the next frame.
+fn draw(normal: usize, offset: f64, rng: &mut Xoshiro256PlusPlus) -> Seen {
+    loop {
+        if let Some(seen) = attempt(normal, offset, rng) {
+            return seen;
+        }
+    }
+}
+
+fn attempt(normal: usize, offset: f64, rng: &mut Xoshiro256PlusPlus) -> Option<Seen> {
+    let across = [(normal + 1) % 3, (normal + 2) % 3].map(|axis| DVec3::AXES[axis]);
+    // The constant coordinate is what a vertex can hold.
+    let height = DVec3::AXES[normal] * f64::from(offset as f32);
+    let placed = placement(rng);
+    let centre = placed - DVec3::AXES[normal] * placed[normal] + height;
+    let rectangle =
+        Rectangle { centre, half_u: across[0] * PLANE_HALF_SIDE, half_v: across[1] * PLANE_HALF_SIDE };
+    // From straight above down to 11 degrees over the plane, from either side, at every turn of the camera.
+    let mut between = |low: f64, high: f64| low + (high - low) * uniform01(rng);
+    let rise = between(0.2, 1.0) * if between(0.0, 1.0) < 0.5 { -1.0 } else { 1.0 };
+    let azimuth = between(0.0, TAU);
+    let level = (1.0 - rise * rise).sqrt();
+    let to_eye = across[0] * (level * libm::cos(azimuth))
+        + across[1] * (level * libm::sin(azimuth))
+        + DVec3::AXES[normal] * rise;
+    let distance = between(1.5, 4.0) * PLANE_HALF_SIDE;
+    let up = dvec3(between(-1.0, 1.0), between(-1.0, 1.0), between(-1.0, 1.0));
+    let camera = Camera::look_at(centre + to_eye * distance, centre, up, 0.4, RASTER_RESOLUTION);
+    let [width, height] = camera.resolution;
+    let pixel = [between(0.0, f64::from(width)) as u32, between(0.0, f64::from(height)) as u32];
+    let turn = between(0.0, TAU);
+    let shift = dvec2(libm::cos(turn), libm::sin(turn)) * FRAME_SHIFT;
+    let rasterised =
+        |shift: DVec2| Some(Raster::new(&camera, &rectangle, shift)?.footprint(pixel)?.cast::<f64>());
+    let seen_at = dvec2(f64::from(pixel[0]) + 0.5, f64::from(pixel[1]) + 0.5);
+    let point = |pixel: DVec2| Some(rectangle.footprint(&camera, pixel)?.position);
+    Some(Seen {
+        before: rasterised(DVec2::ZERO)?,
+        after: rasterised(shift)?,
+        motion: point(seen_at - shift)? - point(seen_at)?,
+    })
+}
