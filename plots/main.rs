@@ -2,6 +2,9 @@
 //! `plots/gallery`. Equal bytes on every run: each picture takes its samples from a seed of its own.
 #![allow(clippy::print_stdout)]
 
+mod arithmetic;
+mod axis_planes;
+
 use glam::{DVec2, DVec3, dvec2, dvec3};
 use hashed_alpha::report::figure::before_and_after::{LerpHistograms, before_and_after};
 use hashed_alpha::report::figure::cdf_family::cdf_family;
@@ -29,6 +32,10 @@ fn main() -> io::Result<()> {
         ("stability", draw_stability),
         ("stability_grazing", draw_stability_grazing),
         ("noise", draw_noise),
+        ("validity", |_| arithmetic::draw_validity()),
+        ("planes", |_| axis_planes::draw_planes()),
+        ("dyadic", axis_planes::draw_dyadic),
+        ("room", |_| axis_planes::draw_room()),
     ] {
         let path = directory.join(name).with_extension("svg");
         fs::write(&path, picture(rng(name)))?;

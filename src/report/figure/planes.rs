@@ -2,8 +2,8 @@
 
 use super::raster::Raster;
 use super::style::{
-    Axis, BAND, CURVE, Drawn, Key, LABEL_SIZE, PANEL_STRIP, TITLE_STRIP, VERMILLION, WIDTH, block, chart,
-    colour, curve, grid, legend, legend_height, marker, on_top, picture, plain, share_range, shorten,
+    Axis, BAND, CURVE, Key, LABEL_SIZE, PANEL_STRIP, TITLE_STRIP, VERMILLION, WIDTH, block, chart, colour,
+    curve, grid, legend, legend_height, marker, on_top, picture, plain, share_range, shorten,
 };
 use plotters::style::RGBColor;
 use plotters::style::text_anchor::{HPos, VPos};
@@ -21,8 +21,10 @@ pub struct PlaneBias {
 /// independent pixels would have.
 #[must_use]
 pub fn plane_bias(title: &str, panels: &[PlaneBias], sigma: f64) -> String {
-    let entries =
-        [(Key::Field(BAND), "3σ of independent pixels"), (Key::Line(colour(0)), "bias of one plane")];
+    let entries = [
+        (Key::Field(BAND), "3σ of independent pixels"),
+        (Key::Line(colour(0)), "bias of one plane: coverage less alpha"),
+    ];
     let largest = panels.iter().flat_map(|panel| &panel.bias).fold(3.0 * sigma, |m, b| f64::max(m, b.abs()));
     let count = panels.iter().map(|panel| panel.bias.len()).max().unwrap_or(0).max(1);
     let strip = legend_height(&entries, WIDTH as i32 - 120);
@@ -35,8 +37,7 @@ pub fn plane_bias(title: &str, panels: &[PlaneBias], sigma: f64) -> String {
             let last = index + 1 == panels.len();
             let z = if last { "z of the plane [cells]" } else { "" };
             let x = Axis { numbered: last, ..Axis::new(z, -1.0..count as f64, 8) };
-            let middle = if index == panels.len() / 2 { "coverage less alpha" } else { "" };
-            let y = Axis::new(middle, -1.08 * largest..1.08 * largest, 4);
+            let y = Axis::new("bias", -1.08 * largest..1.08 * largest, 4);
             let mut chart = chart(&cell, &panel.name, &x, &y)?;
             block(&mut chart, [(-1.0, -3.0 * sigma), (count as f64, 3.0 * sigma)], BAND)?;
             panel.bias.iter().enumerate().try_for_each(|(z, &bias)| {
@@ -64,32 +65,25 @@ pub fn plane_changes(title: &str, planes: &[&str], series: &[PlaneChanges]) -> S
     let shares = || series.iter().flat_map(|series| &series.share).filter(|share| share.is_finite());
     let highest = shares().copied().fold(0.0, f64::max);
     let strip = legend_height(&entries, WIDTH as i32 - 120);
-    picture(title, TITLE_STRIP + strip + 800, |area| {
+    picture(title, TITLE_STRIP + strip + 700, |area| {
         let (top, body) = area.split_vertically(strip);
         legend(&top.margin(0, 0, 100, 20), &entries)?;
-        let count = planes.len().max(1) as f64;
-        let x = Axis { numbered: false, ..Axis::new("plane z [object units]", 0.0..count, 1) };
-        let y = Axis::new("share of changed thresholds", share_range(highest), 5);
-        let mut chart = chart(&body, "", &x, &y)?;
-        for (place, name) in planes.iter().enumerate() {
-            let at = chart.backend_coord(&(place as f64 + 0.5, 0.0));
-            let (left, top) = body.get_base_pixel();
-            let style = plain(LABEL_SIZE, HPos::Center, VPos::Bottom);
-            body.draw_text(name, &style, (at.0 - left, at.1 - top - 6))?;
+        let x = Axis { numbered: false, ..Axis::new("", 0.0..series.len() as f64 + 1.0, 1) };
+        let cells = grid(&body, [1, planes.len().max(1)], [112, 0]);
+        for (place, (name, cell)) in planes.iter().zip(cells).enumerate() {
+            let title = if place == 0 { "share of changed thresholds" } else { "" };
+            let y = Axis { numbered: place == 0, ..Axis::new(title, share_range(highest), 5) };
+            let mut chart = chart(&cell, name, &x, &y)?;
+            for (index, series) in series.iter().enumerate() {
+                let at = (index as f64 + 1.0, series.share.get(place).copied().unwrap_or(f64::NAN));
+                if at.1.is_finite() {
+                    curve(&mut chart, [(at.0, 0.0), at], colour(index), CURVE)?;
+                    marker(&mut chart, at, index)?;
+                }
+            }
         }
-        series.iter().enumerate().try_for_each(|(index, series)| -> Drawn {
-            let beside = (index as f64 + 1.0) / (series_count(entries.len()) + 1.0);
-            let shown = series.share.iter().enumerate().filter(|(_, share)| share.is_finite());
-            shown.map(|(place, &share)| (place as f64 + beside, share)).try_for_each(|at| {
-                curve(&mut chart, [(at.0, 0.0), at], colour(index), CURVE)?;
-                marker(&mut chart, at, index)
-            })
-        })
+        Ok(())
     })
-}
-
-fn series_count(entries: usize) -> f64 {
-    entries.max(1) as f64
 }
 
 /// Thresholds of a picture.
@@ -162,7 +156,7 @@ mod tests {
     #[test]
     fn planes_are_named_and_missing_shares_left_out() {
         let series = [PlaneChanges { name: "Listing 2".to_owned(), share: vec![f64::NAN, 0.3] }];
-        is_sound(&plane_changes("changes", &["0", "0.5"], &series), &["Listing 2", ">\n0.5\n<"]);
+        is_sound(&plane_changes("changes", &["z = 0", "z = 0.5"], &series), &["Listing 2", "z = 0.5"]);
     }
 
     #[test]
