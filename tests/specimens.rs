@@ -225,3 +225,66 @@ fn degenerate_inputs_need_validation_and_a_floor() {
         );
     }
 }
+
+/// A robust threshold whose hash sees another cell than the one that it is given.
+#[derive(Clone, Copy)]
+struct Redirected(fn([f64; 3], u32) -> ([f64; 3], u32));
+
+impl<R: Real> Hash<R> for Redirected {
+    fn hash(&self, cell: &Cell<R>) -> R {
+        let index: [R; 3] = cell.index.into();
+        let (index, octave) = (self.0)(index.map(R::to_f64), cell.octave);
+        HashKind::Mm4.hash(&Cell { index: index.map(R::from_f64).into(), octave })
+    }
+}
+
+/// Tries a robust threshold whose hash sees other cells.
+fn assert_rejects_redirected(claim: &str, to: fn([f64; 3], u32) -> ([f64; 3], u32)) {
+    let preset = Robust::new(Variant::Isotropic);
+    let Robust { variant, hash_scale, join, repairs, .. } = preset;
+    let robust = Robust { hash: Redirected(to), variant, hash_scale, join, repairs };
+    assert_rejects(claim, Subject::robust("specimen", Precision::F32, robust));
+}
+
+#[test]
+fn truncation_for_floor_makes_one_cell_of_two_at_zero() {
+    assert_rejects_redirected("independence.across_zero", |index, octave| {
+        (index.map(|i| if i < 0.0 { i + 1.0 } else { i }), octave)
+    });
+}
+
+#[test]
+fn cells_that_are_tied_in_a_diagonal_depend_on_each_other() {
+    assert_rejects_redirected("independence.diagonals", |[x, y, z], octave| {
+        let is_odd = |i: f64| i.rem_euclid(2.0) == 1.0;
+        if is_odd(x) && is_odd(y) { ([x - 1.0, y - 1.0, z], octave) } else { ([x, y, z], octave) }
+    });
+}
+
+#[test]
+fn an_octave_that_copies_one_above_is_no_new_noise() {
+    assert_rejects_redirected("independence.octaves", |index, octave| {
+        let is_multiple = index.iter().all(|i| i.rem_euclid(4.0) == 0.0);
+        if is_multiple { (index.map(|i| i / 4.0), octave.wrapping_sub(2)) } else { (index, octave) }
+    });
+}
+
+#[test]
+fn without_the_octave_an_object_of_half_the_size_has_the_same_noise() {
+    assert_rejects(
+        "independence.octaves",
+        unrepaired(Variant::Isotropic, Precision::F64, Repair::OctaveWord),
+    );
+}
+
+#[test]
+fn a_clamp_to_eight_bits_leaves_the_ends_of_the_range_empty() {
+    let robust = Robust::new(Variant::Isotropic);
+    let clamped = |low: f64, high: f64| {
+        Subject::new("specimen", Precision::F64, Variant::Isotropic, move |footprint: &Footprint<f64>| {
+            robust.threshold(footprint).ok().map(|threshold| threshold.clamp(low, high))
+        })
+    };
+    assert_rejects("atoms.ends", clamped(1.0 / 255.0, 1.0));
+    assert_rejects("atoms.ends", clamped(1e-9, 254.0 / 255.0));
+}

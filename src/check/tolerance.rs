@@ -40,6 +40,9 @@ pub const PLANE_SAMPLES: usize = 1 << 15;
 /// Pairs of neighbours along each axis: 256 expected in every square.
 pub const NEIGHBOUR_PAIRS: usize = 1 << 16;
 
+/// Pairs of cells in each of the other relations: 64 expected in every square, and room for ten relations in a second.
+pub const FAR_PAIRS: usize = 1 << 14;
+
 /// Samples at each shift, screen axis and scene: tells a change of 0.01 in any share at the single level and power.
 pub const SHIFT_SAMPLES: usize = 1 << 16;
 
@@ -166,3 +169,9 @@ pub const FAR_FOOTPRINTS: [f64; 4] = [0.05, 0.2, 0.5, 1.5];
 
 /// Quads of each size at each distance: a share is known to a hundredth.
 pub const FAR_QUADS: usize = 1 << 13;
+
+/// An end of the range: one step of the coarsest grid of the `f32` sine hash.
+pub const END: f64 = 1.0 / 1024.0;
+
+/// Layers of the block of cells in which the ends are counted: 256 expected at each end.
+pub const END_LAYERS: u32 = ATOM_BLOCK[2] / 4;

@@ -163,11 +163,15 @@ fn scene_names() -> PossibleValuesParser {
     PossibleValuesParser::new(Scene::all().into_iter().map(|scene| scene.name))
 }
 
+/// The largest side of an image, in pixels: that of the largest texture of a common GPU.
+const LARGEST_SIDE: u32 = 16_384;
+
 /// Reads a width and a height in pixels, as in `640x480`.
 fn resolution(text: &str) -> Result<[u32; 2], &'static str> {
     let size =
         text.split_once('x').and_then(|(width, height)| Some([width.parse().ok()?, height.parse().ok()?]));
-    size.filter(|size| !size.contains(&0)).ok_or("write width and height in pixels like 640x480")
+    size.filter(|size| size.iter().all(|side| (1..=LARGEST_SIDE).contains(side)))
+        .ok_or("write width and height in pixels like 640x480, each from 1 to 16384")
 }
 
 #[cfg(test)]

@@ -6,6 +6,8 @@ use hashed_alpha::check::subject::Precision;
 use hashed_alpha::check::{Outcome, claims};
 use serde::de::Error;
 use serde::{Deserialize, Deserializer};
+use std::fs::File;
+use std::io::Read;
 use std::path::Path;
 
 /// A list as it is written.
@@ -50,11 +52,19 @@ impl Known {
     }
 }
 
+/// The longest list that is read, in bytes: a device file must not fill the memory.
+const LONGEST_LIST: u64 = 1 << 20;
+
 /// Reads a list from a file.
 pub fn read(file: &Path) -> Result<Known, Failure> {
     let place = file.display().to_string();
-    match std::fs::read_to_string(file) {
-        Ok(text) => {
+    let mut text = String::new();
+    let read = File::open(file).and_then(|list| list.take(LONGEST_LIST + 1).read_to_string(&mut text));
+    match read {
+        Ok(length) if length as u64 > LONGEST_LIST => Err(Failure::Usage(format!(
+            "{place}: longer than {LONGEST_LIST} bytes, which no list of findings is"
+        ))),
+        Ok(_) => {
             parse(&text).map_err(|error| Failure::Usage(format!("{place}: {}", error.to_string().trim_end())))
         }
         Err(source) => Err(Failure::File { action: "read", place, source }),

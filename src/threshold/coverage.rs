@@ -4,13 +4,13 @@ use super::fade_in::clamp_last;
 use super::real::Real;
 use core::num::NonZeroU32;
 
-/// Returns the threshold of sample `i` of `n` under the fixed dither: `(i + 1/2) / n`. Eq. 7.
+/// Returns the threshold of sample `i` of `n` under the fixed dither: `(i + 1/2) / n`; `i` counts modulo `n`. Eq. 7.
 ///
 /// It keeps `round(n alpha)` samples; the paper says that this is the same as the `floor(n alpha)` of hardware (§3),
 /// which it is not for half of all alphas.
 #[must_use]
 pub fn regular<R: Real>(i: u32, n: NonZeroU32) -> R {
-    (R::from_f64(f64::from(i)) + R::from_f64(0.5)) / R::from_f64(f64::from(n.get()))
+    (R::from_f64(f64::from(i % n)) + R::from_f64(0.5)) / R::from_f64(f64::from(n.get()))
 }
 
 /// Returns the threshold of sample `i` of `n`, jittered within its stratum: `(i + chi) / n`. Eq. 8.

@@ -82,11 +82,13 @@ pub fn fade_in_literal<R: Real>(threshold: R, b: R) -> R {
 }
 
 /// Fades a threshold in (0, 1] towards the traditional one; exactly 1/2 at `b` = 0 and the threshold itself at `b` = 1,
-/// in [2^-24, 1] between them. Eq. 4 as a mixture.
+/// in [2^-24, 1] between them. A `b` outside [0, 1] counts as its nearer end, NaN as 0. Eq. 4 as a mixture.
 #[must_use]
 pub fn fade_in<R: Real>(threshold: R, b: R) -> R {
-    let b = Real::clamp(b, R::from_f64(0.0), R::from_f64(1.0));
-    clamp_last((R::from_f64(1.0) - b) * R::from_f64(FIXED_THRESHOLD) + b * threshold)
+    let [zero, one] = [0.0, 1.0].map(R::from_f64);
+    // Also false for NaN, which fades to nothing.
+    let b = if b > zero { Real::min(b, one) } else { zero };
+    clamp_last((one - b) * R::from_f64(FIXED_THRESHOLD) + b * threshold)
 }
 
 #[cfg(test)]
@@ -126,6 +128,8 @@ mod tests {
         assert_eq!(fade_in_literal(small * 0.25, 1.0), 0.0);
         assert_eq!(fade_in(small, 1.0), small);
         assert_eq!(fade_in(small, 0.0), 0.5);
+        assert_eq!(fade_in(small, f32::NAN), 0.5);
+        assert_eq!(fade_in(small, f32::INFINITY), small);
     }
 
     #[test]

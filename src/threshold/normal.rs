@@ -4,7 +4,9 @@
 
 use core::f64::consts::FRAC_1_SQRT_2;
 
-/// Returns the probability that a standard normal variable is at most `z`, in [0, 1]; accurate in both tails.
+/// Returns the probability that a standard normal variable is at most `z`, in [0, 1].
+///
+/// A true tail on both sides: the relative error stays below 1e-14 out to |z| = 5.5, the range of the open lattice.
 #[must_use]
 pub fn normal_cdf(z: f64) -> f64 {
     0.5 * libm::erfc(-z * FRAC_1_SQRT_2)
@@ -12,7 +14,7 @@ pub fn normal_cdf(z: f64) -> f64 {
 
 /// Returns the `z` at which [`normal_cdf`] reaches `probability`; -inf at 0, +inf at 1, NaN outside [0, 1].
 ///
-/// Relative error about 1e-16: the rational functions of Wichura's algorithm AS 241 (Applied Statistics 37, 1988).
+/// Relative error below 1e-15: the rational functions of Wichura's algorithm AS 241 (Applied Statistics 37, 1988).
 #[must_use]
 pub fn normal_quantile(probability: f64) -> f64 {
     let centred = probability - 0.5;

@@ -3,29 +3,43 @@
 use super::cells::at_scale;
 use super::uniform::reject_outsiders;
 use super::{Attempt, Claim, Conclusion, Trial};
-use crate::check::tolerance::{ATOM_BLOCK, ATOM_THRESHOLD, POWER, SINGLE_LEVEL, SPREAD};
+use crate::check::tolerance::{ATOM_BLOCK, ATOM_THRESHOLD, END, END_LAYERS, POWER, SINGLE_LEVEL, SPREAD};
 use crate::check::{Evidence, Subject, Verdict};
-use crate::stats::{binomial, seed};
+use crate::stats::{binomial, power, seed};
 use crate::threshold::footprint::Footprint;
 use glam::{DVec3, dvec3};
+use rand::rngs::Xoshiro256PlusPlus;
 
 /// Thresholds next to zero, which keep what is all but transparent.
 pub const ZERO: Claim = Claim {
     id: "atoms.zero",
     anchor: "§5.1, §5 (the clamp of Listing 1)",
-    statement: "where one octave has all the weight, thresholds up to 1e-5 come up with that probability",
+    statement: "where one octave has all the weight, thresholds up to 1e-5 come up no more often than that",
     expected: Verdict::Consistent,
     run: zero,
 };
 
-fn zero(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
-    let mut rng = seed::rng(ZERO.id, seed);
-    // Every cell of a block once, at a scale of 1: the finer octave has no weight.
+/// Both ends of the range, each of the size of one step of the coarsest grid on which the `f32` sine hash lies.
+pub const ENDS: Claim = Claim {
+    id: "atoms.ends",
+    anchor: "§5 (thresholds in [0, 1))",
+    statement: "the lowest and the highest 2^-10 of the range come up with that probability, no more and no less",
+    expected: Verdict::Consistent,
+    run: ends,
+};
+
+/// Evaluates every cell of `layers` layers of a block once, at a scale of 1, where the finer octave has no weight, and
+/// hands over the thresholds layer by layer; returns their number.
+fn block_of_cells(
+    subject: &Subject<'_>,
+    layers: u32,
+    mut rng: Xoshiro256PlusPlus,
+    mut use_layer: impl FnMut(&[f64]),
+) -> Attempt<u64> {
     let corner = dvec3(seed::uniform01(&mut rng), seed::uniform01(&mut rng), seed::uniform01(&mut rng));
     let corner = (corner * SPREAD).floor() + DVec3::splat(0.25);
-    let [nx, ny, nz] = ATOM_BLOCK;
-    let mut low = 0;
-    for z in 0..nz {
+    let [nx, ny, _] = ATOM_BLOCK;
+    for z in 0..layers {
         let layer: Vec<Footprint<f64>> = (0..nx * ny)
             .map(|i| corner + dvec3(f64::from(i % nx), f64::from(i / nx), f64::from(z)))
             .map(|position| at_scale(subject.variant, subject.hash_scale, position, [0.0; 3]))
@@ -33,9 +47,16 @@ fn zero(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
             .collect();
         let values = subject.thresholds(&layer);
         reject_outsiders(&layer, &values)?;
-        low += values.iter().filter(|&&value| value <= ATOM_THRESHOLD).count() as u64;
+        use_layer(&values);
     }
-    let n = u64::from(nx) * u64::from(ny) * u64::from(nz);
+    Ok(u64::from(nx) * u64::from(ny) * u64::from(layers))
+}
+
+fn zero(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
+    let mut low = 0;
+    let n = block_of_cells(subject, ATOM_BLOCK[2], seed::rng(ZERO.id, seed), |values| {
+        low += values.iter().filter(|&&value| value <= ATOM_THRESHOLD).count() as u64;
+    })?;
     let mean = n as f64 * ATOM_THRESHOLD;
     let times = low as f64 / mean;
     Ok(Trial {
@@ -48,6 +69,34 @@ fn zero(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
         detectable: Some(detectable(mean)),
         seen: format!(
             "{low} of {n} thresholds are up to {ATOM_THRESHOLD:e}, {times:.0} times as many as expected"
+        ),
+        evidence: Evidence::None,
+    })
+}
+
+fn ends(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
+    let mut counts = [0_u64; 2];
+    let n = block_of_cells(subject, END_LAYERS, seed::rng(ENDS.id, seed), |values| {
+        counts[0] += values.iter().filter(|&&value| value < END).count() as u64;
+        counts[1] += values.iter().filter(|&&value| value >= 1.0 - END).count() as u64;
+    })?;
+    let mean = n as f64 * END;
+    let p = counts.map(|count| binomial::two_sided_p(count, n, END));
+    let worst = if p[0] <= p[1] { 0 } else { 1 };
+    let share = counts[worst] as f64 / mean;
+    let sigma = (mean * (1.0 - END)).sqrt() / mean;
+    Ok(Trial {
+        conclusion: Conclusion::Probability((2.0 * p[worst]).min(1.0)),
+        statistic: Some(counts[worst] as f64),
+        statistic_name: format!("thresholds at one end, {mean:.1} expected, worst of 2"),
+        n,
+        effect: Some((share - 1.0).abs()),
+        effect_name: "relative error in their number",
+        detectable: Some(power::detectable_shift_z(sigma, SINGLE_LEVEL / 2.0, POWER)),
+        seen: format!(
+            "{} of {n} thresholds are in the {} 2^-10 of the range, {mean:.0} are expected",
+            counts[worst],
+            ["lowest", "highest"][worst]
         ),
         evidence: Evidence::None,
     })

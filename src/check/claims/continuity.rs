@@ -7,7 +7,7 @@
 use super::cells::{at_scale, draw_cell, numerator};
 use super::range::describe;
 use super::uniform::reject_outsiders;
-use super::{Attempt, Claim, Conclusion, Trial};
+use super::{Attempt, Claim, Conclusion, Trial, detectable_share};
 use crate::check::sample::{UsedCells, placement};
 use crate::check::subject::{Nominal, Precision};
 use crate::check::tolerance::{
@@ -215,7 +215,7 @@ impl Pops {
             n: self.steps,
             effect: Some(rate),
             effect_name,
-            detectable: Some(1.0 / motions),
+            detectable: Some(detectable_share(motions)),
             seen: format!(
                 "{rate:.3} {effect_name}, by {:.3} in the mean and {:.3} at most; first to {}",
                 self.sum / self.count as f64,

@@ -2,7 +2,7 @@
 //! surfaces so far from the origin that neighbouring pixels have the same position.
 
 use super::range::describe;
-use super::{Attempt, Claim, Conclusion, Trial};
+use super::{Attempt, Claim, Conclusion, Trial, detectable_share};
 use crate::check::tolerance::{FAR_COORDINATES, FAR_FOOTPRINTS, FAR_QUADS};
 use crate::check::{Evidence, Subject, Verdict};
 use crate::stats::seed;
@@ -110,12 +110,14 @@ fn degenerate(subject: &Subject<'_>, _: u64) -> Attempt<Trial> {
     Ok(outsiders(
         outside,
         n,
+        // A fixed table: what is not on it is not seen.
+        None,
         format!("{outside} of {n} answers are no number in (0, 1], {refused} are refusals{first}"),
     ))
 }
 
 /// The trial of a claim that every threshold is in (0, 1].
-fn outsiders(outside: u64, n: u64, seen: String) -> Trial {
+fn outsiders(outside: u64, n: u64, detectable: Option<f64>, seen: String) -> Trial {
     Trial {
         conclusion: Conclusion::Exact { holds: outside == 0 },
         statistic: Some(outside as f64),
@@ -123,7 +125,7 @@ fn outsiders(outside: u64, n: u64, seen: String) -> Trial {
         n,
         effect: Some(outside as f64 / n as f64),
         effect_name: "share of footprints",
-        detectable: Some(1.0 / n as f64),
+        detectable,
         seen,
         evidence: Evidence::None,
     }
@@ -155,7 +157,7 @@ fn far_from_origin(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
         "no number in (0, 1], by the size of a pixel in units in the last place: {}{first}",
         seen.join(", ")
     );
-    Ok(outsiders(outside, n, seen))
+    Ok(outsiders(outside, n, Some(detectable_share(n as f64)), seen))
 }
 
 /// A pixel of a frontal wall of constant z whose pixels are `ratio` units in the last place of `f32` wide: positions

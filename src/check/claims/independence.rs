@@ -3,11 +3,12 @@
 use super::uniform::reject_outsiders;
 use super::{Attempt, Claim, Trial};
 use crate::check::sample::{UsedCells, footprint, general_scenes, moved, placement};
-use crate::check::tolerance::{DRAWS_A_PLACE, DRAWS_A_SAMPLE, NEIGHBOUR_PAIRS, PAIR_BINS};
+use crate::check::tolerance::{DRAWS_A_PLACE, DRAWS_A_SAMPLE, FAR_PAIRS, NEIGHBOUR_PAIRS, PAIR_BINS};
 use crate::check::{Evidence, Subject, Verdict};
 use crate::stats::{chi_square, correlation, seed};
 use crate::threshold::footprint::Footprint;
-use glam::DVec3;
+use glam::{DVec3, dvec3};
+use rand::rngs::Xoshiro256PlusPlus;
 
 /// Serial test of neighbouring coarse cells.
 pub const NEIGHBOURS: Claim = Claim {
@@ -18,29 +19,135 @@ pub const NEIGHBOURS: Claim = Claim {
     run: neighbours,
 };
 
+/// Serial test of coarse cells that touch in an edge or a corner.
+pub const DIAGONALS: Claim = Claim {
+    id: "independence.diagonals",
+    anchor: "§5 (hash outputs replace uniform random numbers)",
+    statement: "thresholds in coarse cells that touch in an edge or a corner are independent",
+    expected: Verdict::Consistent,
+    run: diagonals,
+};
+
+/// Serial test of the cells on both sides of the planes x = 0, y = 0 and z = 0.
+pub const ACROSS_ZERO: Claim = Claim {
+    id: "independence.across_zero",
+    anchor: "§5.4.1 (floor of the coordinates); not in the paper",
+    statement: "thresholds on the two sides of a coordinate's zero are independent",
+    expected: Verdict::Consistent,
+    run: across_zero,
+};
+
+/// Serial test of cells of different octaves.
+pub const OCTAVES: Claim = Claim {
+    id: "independence.octaves",
+    anchor: "§5.4.2 (two scales); not in the paper",
+    statement: "the noise of one octave is no copy of another one's: neither at half the size, nor two octaves down",
+    expected: Verdict::Consistent,
+    run: octaves,
+};
+
+/// Makes a pair of footprints out of one, whose thresholds should have nothing to do with each other.
+type Pairing<'a> = Box<dyn Fn(Footprint<f64>) -> [Footprint<f64>; 2] + 'a>;
+
+/// The second of a pair lies `cells` coarse cells from the first, wherever the surface goes.
+fn apart<'a>(subject: &'a Subject<'_>, cells: DVec3) -> Pairing<'a> {
+    Box::new(move |first| {
+        let side = dvec3(1.0, 1.0, 1.0) / DVec3::from_array(subject.nominal(&first).coarse_scale);
+        [first, moved(&first, cells * side, subject.precision)]
+    })
+}
+
 fn neighbours(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
-    let mut rng = seed::rng(NEIGHBOURS.id, seed);
+    let pairings = DVec3::AXES.map(|axis| apart(subject, axis));
+    let rng = seed::rng(NEIGHBOURS.id, seed);
+    independent_pairs(subject, &pairings, NEIGHBOUR_PAIRS, rng, "thresholds of neighbouring cells")
+}
+
+fn diagonals(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
+    // One of each two opposite directions; those along an axis have a claim of their own.
+    let steps = [-1.0, 0.0, 1.0];
+    let all =
+        steps.into_iter().flat_map(|x| steps.into_iter().flat_map(move |y| steps.map(|z| dvec3(x, y, z))));
+    let pairings: Vec<Pairing<'_>> = all
+        .skip(14)
+        .filter(|cells| cells.abs().element_sum() > 1.0)
+        .map(|cells| apart(subject, cells))
+        .collect();
+    let rng = seed::rng(DIAGONALS.id, seed);
+    independent_pairs(
+        subject,
+        &pairings,
+        FAR_PAIRS,
+        rng,
+        "thresholds of cells that touch in an edge or corner",
+    )
+}
+
+fn across_zero(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
+    let pairing = |axis: usize| -> Pairing<'_> {
+        Box::new(move |found| {
+            let side = 1.0 / subject.nominal(&found).coarse_scale[axis];
+            let within = found.position[axis] / side;
+            // From the last cell below zero to the first one above.
+            let below = (within - within.floor() - 1.0) * side - found.position[axis];
+            let first = moved(&found, DVec3::AXES[axis] * below, subject.precision);
+            [first, moved(&first, DVec3::AXES[axis] * side, subject.precision)]
+        })
+    };
+    let rng = seed::rng(ACROSS_ZERO.id, seed);
+    independent_pairs(subject, &[0, 1, 2].map(pairing), FAR_PAIRS, rng, "thresholds on the two sides of zero")
+}
+
+fn octaves(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
+    let finer = |found: &Footprint<f64>, times: f64| Footprint {
+        position: found.position,
+        dpdx: found.dpdx / times,
+        dpdy: found.dpdy / times,
+    };
+    let half_the_size: Pairing<'_> = Box::new(|found| {
+        let half = moved(&finer(&found, 2.0), -0.5 * found.position, subject.precision);
+        [found, half]
+    });
+    // At the same place two octaves down, where indices are whole multiples of those above.
+    let descendant: Pairing<'_> = Box::new(|found| {
+        let below = subject.nominal(&finer(&found, 4.0));
+        let scale = DVec3::from_array(below.coarse_scale);
+        let index = below.coarse_cell;
+        let beyond = index - (index / 4.0).floor() * 4.0;
+        let first = moved(&found, -beyond / scale, subject.precision);
+        [first, finer(&first, 4.0)]
+    });
+    let rng = seed::rng(OCTAVES.id, seed);
+    let seen = "thresholds of two octaves";
+    independent_pairs(subject, &[half_the_size, descendant], FAR_PAIRS, rng, seen)
+}
+
+/// Tests `n` pairs of each kind for independence, no two pairs touching the same cell.
+fn independent_pairs(
+    subject: &Subject<'_>,
+    pairings: &[Pairing<'_>],
+    n: usize,
+    mut rng: Xoshiro256PlusPlus,
+    what: &str,
+) -> Attempt<Trial> {
     let scenes = general_scenes();
     let mut used = UsedCells::default();
     let mut tests = Vec::new();
     let mut pooled = vec![0; PAIR_BINS * PAIR_BINS];
-    for (axis, direction) in DVec3::AXES.into_iter().enumerate() {
-        let mut pairs: Vec<Footprint<f64>> = Vec::with_capacity(2 * NEIGHBOUR_PAIRS);
+    for pairing in pairings {
+        let mut pairs: Vec<Footprint<f64>> = Vec::with_capacity(2 * n);
         let mut place = DVec3::ZERO;
-        for draw in 0..NEIGHBOUR_PAIRS * DRAWS_A_SAMPLE {
-            if pairs.len() == 2 * NEIGHBOUR_PAIRS {
+        for draw in 0..n * DRAWS_A_SAMPLE {
+            if pairs.len() == 2 * n {
                 break;
             }
             if draw % DRAWS_A_PLACE == 0 {
                 place = placement(&mut rng);
             }
             let found = footprint(&scenes[draw % scenes.len()], &mut rng);
-            let first = moved(&found, place, subject.precision);
-            // One coarse cell further along the axis, wherever the surface goes.
-            let cell = 1.0 / subject.nominal(&first).coarse_scale[axis];
-            let second = moved(&first, direction * cell, subject.precision);
-            if used.claim(subject, &[first, second]) {
-                pairs.extend([first, second]);
+            let pair = pairing(moved(&found, place, subject.precision));
+            if used.claim(subject, &pair) {
+                pairs.extend(pair);
             }
         }
         let values = subject.thresholds(&pairs);
@@ -50,6 +157,6 @@ fn neighbours(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
         tests.extend(chi_square::independence(&table, PAIR_BINS));
     }
     let n = pooled.iter().sum();
-    let seen = "thresholds of neighbouring cells depend on each other".into();
+    let seen = format!("{what} depend on each other");
     Ok(Trial::worst_of(&tests, n, seen, Evidence::Pairs { side: PAIR_BINS, counts: pooled }))
 }

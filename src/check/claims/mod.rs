@@ -33,7 +33,7 @@ pub struct Claim {
 }
 
 /// Every claim, in the order of the report.
-pub const ALL: [Claim; 22] = [
+pub const ALL: [Claim; 26] = [
     range::RANGE,
     degenerate::DEGENERATE,
     degenerate::FAR_FROM_ORIGIN,
@@ -43,6 +43,9 @@ pub const ALL: [Claim; 22] = [
     uniform::WITHOUT_CDF,
     uniform::CONSTANT_Z,
     independence::NEIGHBOURS,
+    independence::DIAGONALS,
+    independence::ACROSS_ZERO,
+    independence::OCTAVES,
     layers::PARALLEL,
     stability::TRANSLATE,
     stability::TRANSLATE_ALIGNED,
@@ -56,6 +59,7 @@ pub const ALL: [Claim; 22] = [
     cells::WINDOW,
     cells::MIRROR,
     atoms::ZERO,
+    atoms::ENDS,
 ];
 
 /// What a trial reached, or the trial that ended it early.
@@ -100,6 +104,11 @@ pub struct Trial {
     pub evidence: Evidence,
 }
 
+/// The smallest share of bad samples of which at least one is among `n` with power 0.999.
+fn detectable_share(n: f64) -> f64 {
+    -libm::log(1.0 - POWER) / n
+}
+
 impl Trial {
     /// A trial that could not be held, and why.
     fn without(conclusion: Conclusion, reason: impl Into<String>) -> Self {
@@ -125,7 +134,7 @@ impl Trial {
             n: n as u64,
             effect: Some(outside as f64 / n as f64),
             effect_name: "share of samples",
-            detectable: Some(1.0 / n as f64),
+            detectable: Some(detectable_share(n as f64)),
             seen: format!("{outside} of {n} thresholds are NaN or outside [0, 1]; {example}"),
             evidence: Evidence::None,
         }

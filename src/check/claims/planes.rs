@@ -7,17 +7,15 @@
 //! Every sample has a camera and a place of its own, so samples are independent; the constant coordinate stays exact.
 
 use super::range::describe;
-use super::stability::predicted;
+use super::stability::{self, predicted};
 use super::{Attempt, Claim, Conclusion, Trial};
 use crate::check::evidence::ComparedShare;
 use crate::check::sample::placement;
-use crate::check::tolerance::{
-    FRAME_SHIFT, PLANE_HALF_SIDE, POWER, RASTER_RESOLUTION, RASTER_SAMPLES, REDRAW, SINGLE_LEVEL,
-};
+use crate::check::tolerance::{FRAME_SHIFT, PLANE_HALF_SIDE, RASTER_RESOLUTION, RASTER_SAMPLES, REDRAW};
 use crate::check::{Evidence, Subject, Verdict};
 use crate::scene::{Camera, Raster, Rectangle};
 use crate::stats::seed::uniform01;
-use crate::stats::{poisson_binomial, power, seed};
+use crate::stats::{poisson_binomial, seed};
 use crate::threshold::footprint::Footprint;
 use glam::{DVec2, DVec3, dvec2, dvec3};
 use rand::rngs::Xoshiro256PlusPlus;
@@ -115,7 +113,6 @@ fn trial(claim: &Claim, offsets: &[f64], subject: &Subject<'_>, seed: u64) -> At
         seen.push(format!("first {first}"));
     }
     let excess = points.iter().map(|point| point.measured - point.predicted).reduce(f64::max);
-    let sigma = points.iter().map(|point| point.sigma).reduce(f64::min);
     let (conclusion, statistic, statistic_name) = if invalid > 0 {
         (Conclusion::Exact { holds: false }, invalid as f64, "thresholds outside (0, 1]".into())
     } else {
@@ -129,7 +126,7 @@ fn trial(claim: &Claim, offsets: &[f64], subject: &Subject<'_>, seed: u64) -> At
         n: n as u64,
         effect: excess,
         effect_name: "excess in the share that is redrawn",
-        detectable: sigma.map(|sigma| power::detectable_shift_z(sigma, SINGLE_LEVEL, POWER)),
+        detectable: stability::detectable(&points),
         seen: seen.join("; "),
         evidence: Evidence::Comparison(points),
     })

@@ -1,6 +1,6 @@
 //! The range of the threshold, on every surface, with derivatives as they are and as a GPU takes them.
 
-use super::{Attempt, Claim, Conclusion, Trial};
+use super::{Attempt, Claim, Conclusion, Trial, detectable_share};
 use crate::check::sample::{moved, placement};
 use crate::check::tolerance::RANGE_RESOLUTION;
 use crate::check::{Evidence, Subject, Verdict};
@@ -48,7 +48,7 @@ fn range(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
         n: n as u64,
         effect: Some(outside as f64 / n as f64),
         effect_name: "share of footprints",
-        detectable: Some(1.0 / n as f64),
+        detectable: Some(detectable_share(n as f64)),
         seen: seen.join("; "),
         evidence: Evidence::None,
     })

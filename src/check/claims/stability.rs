@@ -44,7 +44,7 @@ fn translate_aligned(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
 fn translate_over(subject: &Subject<'_>, scenes: Vec<Scene>, mut rng: Xoshiro256PlusPlus) -> Attempt<Trial> {
     let mut points = Vec::new();
     let mut worst = (1.0, 0.0);
-    let (mut effect, mut detectable, mut n) = (0.0_f64, f64::INFINITY, 0_u64);
+    let (mut effect, mut n) = (0.0_f64, 0_u64);
     let mut tests = 0;
     for scene in scenes {
         for along_x in [true, false] {
@@ -80,7 +80,6 @@ fn translate_over(subject: &Subject<'_>, scenes: Vec<Scene>, mut rng: Xoshiro256
                     sigma,
                 });
                 effect = effect.max((changed as f64 - mean).abs() / count);
-                detectable = detectable.min(power::detectable_shift_z(sigma, SINGLE_LEVEL, POWER));
                 n += before.len() as u64;
                 tests += 1;
             }
@@ -102,10 +101,17 @@ fn translate_over(subject: &Subject<'_>, scenes: Vec<Scene>, mut rng: Xoshiro256
         n,
         effect: Some(effect),
         effect_name: "error in the share that changes",
-        detectable: Some(detectable),
+        detectable: detectable(&points),
         seen,
         evidence: Evidence::Comparison(points),
     })
+}
+
+/// The error in any of the shares that would be seen wherever it were: by the least certain of the trials, at its part
+/// of the level.
+pub(super) fn detectable(points: &[ComparedShare]) -> Option<f64> {
+    let sigma = points.iter().map(|point| point.sigma).reduce(f64::max)?;
+    Some(power::detectable_shift_z(sigma, SINGLE_LEVEL / points.len() as f64, POWER))
 }
 
 /// The probability that a motion changes the threshold, from the cells that the subject claims to have.
