@@ -59,7 +59,7 @@ fn an_ideal_source_passes() {
         .into_iter()
         .filter(|claim| HARD.iter().any(|family| claim.id.starts_with(family)))
         .collect();
-    assert_eq!(hard.len(), 8);
+    assert!(HARD.iter().all(|family| hard.iter().any(|claim| claim.id.starts_with(family))));
     let continuous = [
         ideal(Variant::Isotropic, Join::Interpolate),
         ideal(Variant::Isotropic, Join::Copula),
