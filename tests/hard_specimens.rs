@@ -1,31 +1,20 @@
 //! The claims about continuity, cells and atoms reject what is broken in just their way, and pass an ideal source.
 
+mod ideal;
+
 use hashed_alpha::check::claims::{self, Claim};
 use hashed_alpha::check::{Subject, Verdict, run, subject::Precision};
 use hashed_alpha::threshold::cdf::{CdfForm, cdf};
 use hashed_alpha::threshold::footprint::Footprint;
-use hashed_alpha::threshold::hash::{Cell, Hash, HashKind, open_lattice, sine::hash_2d};
+use hashed_alpha::threshold::hash::{Cell, Hash, HashKind, sine::hash_2d};
 use hashed_alpha::threshold::hashed::HashedAlpha;
 use hashed_alpha::threshold::real::{Real, log2_f32};
 use hashed_alpha::threshold::robust::scales::cell;
 use hashed_alpha::threshold::robust::{Join, Repair, Repairs, Robust};
 use hashed_alpha::threshold::two_scale::Variant;
-use sha2::{Digest, Sha256};
+use ideal::Ideal;
 
 const HARD: [&str; 3] = ["continuity.", "cells.", "atoms."];
-
-/// A keyed cryptographic hash of the cell and its octave.
-#[derive(Clone, Copy)]
-struct Ideal;
-
-impl<R: Real> Hash<R> for Ideal {
-    fn hash(&self, cell: &Cell<R>) -> R {
-        let mut digest = Sha256::new_with_prefix(b"ideal source");
-        cell.words().iter().for_each(|word| digest.update(word.to_le_bytes()));
-        let digest = digest.finalize();
-        open_lattice(u32::from_le_bytes([digest[0], digest[1], digest[2], digest[3]]))
-    }
-}
 
 fn ideal(variant: Variant, join: Join) -> Robust<Ideal> {
     Robust { variant, hash: Ideal, hash_scale: 1.0, join, repairs: Repairs::ALL }

@@ -1,28 +1,17 @@
 //! Every claim rejects a threshold that is broken in just its way, and an ideal one passes them all.
 
+mod ideal;
+
 use hashed_alpha::check::claims::{self, Claim};
 use hashed_alpha::check::{Outcome, Subject, Verdict, run, subject::Precision};
 use hashed_alpha::threshold::cdf;
 use hashed_alpha::threshold::footprint::Footprint;
-use hashed_alpha::threshold::hash::{Cell, Hash, HashKind, open_lattice};
+use hashed_alpha::threshold::hash::{Cell, Hash, HashKind};
 use hashed_alpha::threshold::hashed::HashedAlpha;
 use hashed_alpha::threshold::real::Real;
 use hashed_alpha::threshold::robust::{Repair, Repairs, Robust};
 use hashed_alpha::threshold::two_scale::Variant;
-use sha2::{Digest, Sha256};
-
-/// A keyed cryptographic hash of the cell and its octave: what every claim must let pass.
-#[derive(Clone, Copy)]
-struct Ideal;
-
-impl<R: Real> Hash<R> for Ideal {
-    fn hash(&self, cell: &Cell<R>) -> R {
-        let mut digest = Sha256::new_with_prefix(b"ideal source");
-        cell.words().iter().for_each(|word| digest.update(word.to_le_bytes()));
-        let digest = digest.finalize();
-        open_lattice(u32::from_le_bytes([digest[0], digest[1], digest[2], digest[3]]))
-    }
-}
+use ideal::Ideal;
 
 const SOUND: HashedAlpha<Ideal> = sound(Ideal);
 
