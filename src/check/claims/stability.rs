@@ -27,7 +27,7 @@ pub const TRANSLATE: Claim = Claim {
 pub const TRANSLATE_ALIGNED: Claim = Claim {
     id: "stability.translate_aligned",
     anchor: "§5 (sub-pixel translations), §5.4.1; closed form not in the paper",
-    statement: "so does it on walls, floors and cards, whose planes hold one coordinate constant",
+    statement: "a sub-pixel shift changes the predicted share on walls, floors and cards, which hold one coordinate constant",
     expected: Verdict::Consistent,
     run: translate_aligned,
 };
