@@ -6,6 +6,7 @@
 //! | [`threshold`] | the mathematics: from a footprint to a threshold, literal and robust |
 //! | [`scene`] | cameras and surfaces: where footprints come from |
 //! | [`stats`] | tests with true tails; knows nothing of alpha testing |
+//! | `shader` (feature `shader`) | the same in shading languages, an interpreter for them, and the device |
 //! | [`check`] | the verdict: claims, subjects, runs |
 //! | `report` (feature `plots`; text, JSON and HTML with `cli`) | what people see |
 //!
@@ -16,6 +17,8 @@ pub mod check;
 #[cfg(feature = "plots")]
 pub mod report;
 pub mod scene;
+#[cfg(feature = "shader")]
+pub mod shader;
 pub mod stats;
 pub mod threshold;
 

@@ -1,0 +1,3 @@
+//! The threshold in shading languages: its text, its checks without a driver, and its runs on a device.
+//!
+//! What never lives here: claims, statistics, printing.
