@@ -17,6 +17,7 @@
 //! | [`poisson_binomial`] | does a count of unequal but independent events match their probabilities? |
 //! | [`correlation`] | are two sequences related? |
 //! | [`multiplicity`] | what is a p-value worth among many? |
+//! | [`sequential`] | the same, when what is suspect may be asked again on fresh data |
 //! | [`power`] | what is the smallest defect that a test can see? |
 //! | [`seed`] | random numbers that are fixed by a name, never by looking at the result |
 //!
@@ -35,6 +36,7 @@ pub mod normal;
 pub mod poisson_binomial;
 pub mod power;
 pub mod seed;
+pub mod sequential;
 
 #[cfg(test)]
 mod calibration;
