@@ -1,3 +1,5 @@
 //! The threshold in shading languages: its text, its checks without a driver, and its runs on a device.
 //!
 //! What never lives here: claims, statistics, printing.
+
+pub mod assemble;

@@ -1,0 +1,3 @@
+fn joined(position: vec3<f32>, scales: Scales) -> f32 {
+    return interpolated(position, scales, corner_weight(scales.fraction));
+}
