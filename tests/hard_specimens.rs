@@ -3,7 +3,7 @@
 mod ideal;
 
 use hashed_alpha::check::claims::{self, Claim};
-use hashed_alpha::check::{Subject, Verdict, run, subject::Precision};
+use hashed_alpha::check::{Draw, Subject, Verdict, run_claims, subject::Precision};
 use hashed_alpha::threshold::cdf::{CdfForm, cdf};
 use hashed_alpha::threshold::footprint::Footprint;
 use hashed_alpha::threshold::hash::{Cell, Hash, HashKind, sine::hash_2d};
@@ -21,11 +21,11 @@ fn ideal(variant: Variant, join: Join) -> Robust<Ideal> {
 }
 
 fn claim_named(id: &str) -> Claim {
-    claims::ALL.into_iter().find(|claim| claim.id == id).expect("a claim of that name")
+    claims::ALL.iter().copied().find(|claim| claim.id == id).expect("a claim of that name")
 }
 
 fn assert_rejected_by(claim: &str, subject: Subject<'_>) {
-    let [outcome] = &run(&[claim_named(claim)], &[subject], 0, || {})[..] else {
+    let [outcome] = &run_claims(&[claim_named(claim)], &[subject], &Draw::default(), || {})[..] else {
         panic!("one claim, one outcome")
     };
     assert_eq!(outcome.verdict, Verdict::Rejected, "{outcome:?}");
@@ -45,7 +45,8 @@ fn with_hash<'a, H: Hash<f32> + Hash<f64> + Copy + Send + 'a>(hash: H) -> Subjec
 #[test]
 fn an_ideal_source_passes() {
     let hard: Vec<Claim> = claims::ALL
-        .into_iter()
+        .iter()
+        .copied()
         .filter(|claim| HARD.iter().any(|family| claim.id.starts_with(family)))
         .collect();
     assert!(HARD.iter().all(|family| hard.iter().any(|claim| claim.id.starts_with(family))));
@@ -59,7 +60,7 @@ fn an_ideal_source_passes() {
     for robust in continuous {
         for precision in Precision::ALL {
             let subject = Subject::robust("ideal", precision, robust);
-            for outcome in run(&hard, &[subject], 0, || {}) {
+            for outcome in run_claims(&hard, &[subject], &Draw::default(), || {}) {
                 assert!(outcome.as_expected(), "{} {} {precision}: {outcome:?}", robust.variant, robust.join);
             }
         }

@@ -1,51 +1,24 @@
 //! The paper's claims about its own listings, one named trial each.
 //!
-//! A claim that is known to be wrong stands in `findings.toml`; its trial demands that it is still rejected.
+//! A claim that a listing is known to fail stands in `check::findings`; its trial demands that it is still rejected.
 
-use hashed_alpha::check::expectation::{Expectation, judge};
-use hashed_alpha::check::{Subject, claims, run};
-use libtest_mimic::{Arguments, Failed, Trial};
-use serde::Deserialize;
+use hashed_alpha::check::{Draw, Outcome, Subject, Suite, Verdict, claims, results::Results, run_claims};
+use libtest_mimic::{Arguments, Trial};
 
-#[derive(Deserialize)]
-struct Findings {
-    finding: Vec<Finding>,
-}
-
-#[derive(Deserialize)]
-struct Finding {
-    check: String,
-    subject: String,
-    precision: String,
-    reason: String,
+fn trial(outcome: &Outcome) -> Trial {
+    let name = format!("{} {} {}", outcome.check, outcome.subject, outcome.precision);
+    let failure = match outcome.listing_fails {
+        _ if outcome.is_news() => Some(outcome.to_string()),
+        Some(reason) if outcome.verdict != Verdict::Rejected => {
+            Some(format!("known as a finding ({reason}), but not rejected\n{outcome}"))
+        }
+        _ => None,
+    };
+    Trial::test(name, move || failure.map_or(Ok(()), |text| Err(text.into())))
 }
 
 fn main() {
-    let findings: Findings = toml::from_str(include_str!("../findings.toml")).expect("findings.toml parses");
-    assert!(findings.finding.iter().all(|finding| !finding.reason.is_empty()));
-    let expectations: Vec<Expectation> = findings
-        .finding
-        .into_iter()
-        .map(|Finding { check, subject, precision, .. }| Expectation { check, subject, precision })
-        .collect();
-
-    let outcomes = run(&claims::ALL, &Subject::paper(), 0, || {});
-    let judgement = judge(&outcomes, &expectations);
-    let mut trials: Vec<Trial> = outcomes
-        .iter()
-        .enumerate()
-        .map(|(index, outcome)| {
-            let name = format!("{} {} {}", outcome.check, outcome.subject, outcome.precision);
-            let failure = judgement.unexpected.contains(&index).then(|| format!("{outcome:#?}"));
-            Trial::test(name, move || failure.map_or(Ok(()), |text| Err(Failed::from(text))))
-        })
-        .collect();
-    for index in judgement.stale.into_iter().chain(judgement.unmatched) {
-        let known = &expectations[index];
-        let name = format!("known finding {} {} {}", known.check, known.subject, known.precision);
-        trials.push(Trial::test(name, || {
-            Err(Failed::from("findings.toml lists it, but the claim was not rejected"))
-        }));
-    }
-    libtest_mimic::run(&Arguments::from_args(), trials).exit();
+    let outcomes = run_claims(claims::ALL, &Subject::paper(), &Draw::default(), || {});
+    let results = Results::new(outcomes, Suite::Paper);
+    libtest_mimic::run(&Arguments::from_args(), results.outcomes.iter().map(trial).collect()).exit();
 }

@@ -5,7 +5,7 @@
 
 use core::num::NonZeroU32;
 use glam::{Vec3, vec3};
-use hashed_alpha::check::{Outcome, Subject, Verdict, claims, run, subject::Precision};
+use hashed_alpha::check::{Draw, Outcome, Subject, Verdict, claims, run_claims, subject::Precision};
 use hashed_alpha::stats::{chi_square, correlation};
 use hashed_alpha::threshold::cdf::{cdf, cdf_literal};
 use hashed_alpha::threshold::coverage::{
@@ -28,8 +28,8 @@ use Precision::F32;
 use Variant::{Anisotropic, Isotropic};
 
 fn outcome(claim: &str, subject: &Subject<'_>) -> Outcome {
-    let claim = claims::ALL.into_iter().find(|known| known.id == claim).expect("a claim of that name");
-    run(&[claim], core::slice::from_ref(subject), 0, || {}).remove(0)
+    let claim = claims::ALL.iter().copied().find(|known| known.id == claim).expect("a claim of that name");
+    run_claims(&[claim], core::slice::from_ref(subject), &Draw::default(), || {}).remove(0)
 }
 
 fn subject(all: Vec<Subject<'static>>, variant: Variant, precision: Precision) -> Subject<'static> {

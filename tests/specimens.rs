@@ -3,7 +3,7 @@
 mod ideal;
 
 use hashed_alpha::check::claims::{self, Claim};
-use hashed_alpha::check::{Outcome, Subject, Verdict, run, subject::Precision};
+use hashed_alpha::check::{Draw, Outcome, Subject, Verdict, run_claims, subject::Precision};
 use hashed_alpha::threshold::cdf;
 use hashed_alpha::threshold::footprint::Footprint;
 use hashed_alpha::threshold::hash::{Cell, Hash, HashKind};
@@ -25,7 +25,7 @@ fn claims_that_fail(outcomes: &[Outcome]) -> Vec<&'static str> {
 }
 
 fn claim_named(id: &str) -> Claim {
-    claims::ALL.into_iter().find(|claim| claim.id == id).expect("a claim of that name")
+    claims::ALL.iter().copied().find(|claim| claim.id == id).expect("a claim of that name")
 }
 
 /// Tries a specimen and asserts that `claim` rejects it.
@@ -35,7 +35,7 @@ fn assert_rejected_by(claim: &str, specimen: impl Fn(&Footprint<f64>) -> f64 + S
 
 /// Tries a subject and asserts that `claim` rejects it.
 fn assert_rejects(claim: &str, subject: Subject<'_>) {
-    let [outcome] = &run(&[claim_named(claim)], &[subject], 0, || {})[..] else {
+    let [outcome] = &run_claims(&[claim_named(claim)], &[subject], &Draw::default(), || {})[..] else {
         panic!("one claim, one outcome")
     };
     assert_eq!(outcome.verdict, Verdict::Rejected, "{outcome:?}");
@@ -50,7 +50,7 @@ fn an_ideal_source_passes_every_claim() {
         let ideal = Robust { variant, hash: Ideal, hash_scale, join, repairs };
         for precision in Precision::ALL {
             let subject = Subject::robust("ideal", precision, ideal);
-            let failed = claims_that_fail(&run(&claims::ALL, &[subject], 0, || {}));
+            let failed = claims_that_fail(&run_claims(claims::ALL, &[subject], &Draw::default(), || {}));
             assert!(failed.is_empty(), "{variant} {precision}: {failed:?}");
         }
     }
@@ -136,7 +136,9 @@ fn the_negative_control_notices_a_join_that_needs_no_cdf() {
     // One scale and one hash: the value is uniform as it is.
     let single = HashedAlpha { variant: Variant::Single, ..SOUND };
     let subject = Subject::hashed("single", Precision::F64, single);
-    let [control] = &run(&[claim_named("uniform.without_cdf")], &[subject], 0, || {})[..] else {
+    let [control] =
+        &run_claims(&[claim_named("uniform.without_cdf")], &[subject], &Draw::default(), || {})[..]
+    else {
         panic!("one outcome")
     };
     assert_eq!(control.verdict, Verdict::Consistent);
@@ -179,7 +181,9 @@ fn leaving_out_axes_of_no_derivative_keeps_the_flicker_of_rounding() {
         robust.threshold(&patched).ok()
     };
     let subject = Subject::new("specimen", Precision::F64, Variant::Anisotropic, patched);
-    let [outcome] = &run(&[claim_named("planes.axis_aligned")], &[subject], 0, || {})[..] else {
+    let [outcome] =
+        &run_claims(&[claim_named("planes.axis_aligned")], &[subject], &Draw::default(), || {})[..]
+    else {
         panic!("one claim, one outcome")
     };
     assert_eq!(outcome.verdict, Verdict::Rejected, "{outcome:?}");

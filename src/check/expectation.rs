@@ -38,8 +38,8 @@ pub struct Judgement {
 pub fn judge(outcomes: &[Outcome], expectations: &[Expectation]) -> Judgement {
     let mut judgement = Judgement::default();
     for (index, outcome) in outcomes.iter().enumerate().filter(|(_, outcome)| !outcome.as_expected()) {
-        let known =
-            outcome.verdict == Verdict::Rejected && expectations.iter().any(|known| known.names(outcome));
+        let known = outcome.known.is_some()
+            || outcome.verdict == Verdict::Rejected && expectations.iter().any(|known| known.names(outcome));
         if known { &mut judgement.known } else { &mut judgement.unexpected }.push(index);
     }
     for (index, expectation) in expectations.iter().enumerate() {

@@ -3,15 +3,20 @@
 //! What never lives here: statistics themselves ([`crate::stats`]), pictures ([`crate::report`]), printing.
 
 pub mod claims;
+pub mod draw;
 pub mod evidence;
 pub mod expectation;
+pub mod findings;
 pub mod outcome;
+pub mod results;
 pub mod sample;
 pub mod subject;
 pub mod suite;
 pub mod tolerance;
 
+pub use draw::{Budget, Draw};
 pub use evidence::Evidence;
 pub use outcome::{Outcome, Verdict};
+pub use results::Results;
 pub use subject::Subject;
-pub use suite::run;
+pub use suite::{Suite, run, run_claims};

@@ -64,8 +64,10 @@ pub struct Outcome {
     pub n: u64,
     /// p-value of the claim alone, in [0, 1]; absent for exact claims.
     pub p: Option<f64>,
-    /// p-value after Holm's correction over all claims of the run, in [0, 1].
+    /// p-value after Holm's correction over all claims of the last round that tried it, in [0, 1].
     pub p_holm: Option<f64>,
+    /// How often the claim was tried: once, or up to three times where it looked suspect.
+    pub rounds: u32,
     /// Size of the effect that was seen, in the unit of `effect_name`.
     pub effect: Option<f64>,
     /// What the effect measures, as in "excess chi-square per sample".
@@ -78,6 +80,8 @@ pub struct Outcome {
     pub finding: Option<String>,
     /// Why a rejection does not surprise, where a list of known findings names it.
     pub known: Option<String>,
+    /// Why the paper's own listing fails this claim, where it is known to.
+    pub listing_fails: Option<&'static str>,
     /// What was seen, to be drawn.
     pub evidence: Evidence,
 }
@@ -87,6 +91,36 @@ impl Outcome {
     #[must_use]
     pub fn as_expected(&self) -> bool {
         self.verdict == self.expected || self.verdict == Verdict::NotApplicable
+    }
+
+    /// Returns whether the answer speaks against the subject: not as expected, and not known either.
+    #[must_use]
+    pub fn is_news(&self) -> bool {
+        !self.as_expected() && self.known.is_none()
+    }
+}
+
+/// The verdict, the claim, what was seen, and by what numbers.
+impl fmt::Display for Outcome {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {} ({})\n  claim: {}", self.verdict, self.check, self.anchor, self.statement)?;
+        if let Some(finding) = &self.finding {
+            write!(f, "\n  seen: {finding}")?;
+        }
+        write!(f, "\n  n = {}", self.n)?;
+        if let Some(statistic) = self.statistic {
+            write!(f, ", {} = {statistic:.5}", self.statistic_name)?;
+        }
+        if let (Some(p), Some(p_holm)) = (self.p, self.p_holm) {
+            write!(f, ", p = {p:.3e}, {p_holm:.3e} among all claims")?;
+        }
+        if let Some(effect) = self.effect {
+            write!(f, "\n  {}: {effect:.4e}", self.effect_name)?;
+        }
+        if let Some(detectable) = self.detectable {
+            write!(f, "; {detectable:.4e} would have been seen")?;
+        }
+        Ok(())
     }
 }
 
@@ -109,12 +143,14 @@ pub(crate) mod tests {
             n: 1,
             p: None,
             p_holm: None,
+            rounds: 1,
             effect: None,
             effect_name: "",
             detectable: None,
             seed: 0,
             finding: None,
             known: None,
+            listing_fails: None,
             evidence: Evidence::None,
         }
     }

@@ -1,5 +1,6 @@
 //! Anything that turns footprints into thresholds.
 
+use crate::scene::Fragment;
 use crate::threshold::footprint::Footprint;
 use crate::threshold::hash::{Hash, HashKind};
 use crate::threshold::hashed::HashedAlpha;
@@ -10,6 +11,7 @@ use crate::threshold::two_scale::Variant;
 use core::fmt;
 use glam::DVec3;
 use rayon::prelude::*;
+use std::sync::OnceLock;
 
 /// The arithmetic in which a subject works.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -49,8 +51,16 @@ impl fmt::Display for Precision {
     }
 }
 
-/// A function of a footprint that can be asked from several threads.
-type Evaluation<'a> = Box<dyn Fn(&Footprint<f64>) -> Option<f64> + Send + Sync + 'a>;
+/// A function of a fragment that can be asked from several threads.
+type OneByOne<'a> = Box<dyn Fn(&Fragment) -> Option<f64> + Send + Sync + 'a>;
+
+/// A function of many fragments at once, which may fail as a whole.
+type AllAtOnce<'a> = Box<dyn Fn(&[Fragment]) -> Result<Vec<f64>, String> + Send + Sync + 'a>;
+
+enum Evaluation<'a> {
+    OneByOne(OneByOne<'a>),
+    AllAtOnce(AllAtOnce<'a>),
+}
 
 /// A threshold on trial.
 pub struct Subject<'a> {
@@ -66,8 +76,11 @@ pub struct Subject<'a> {
     pub nested_phase: bool,
     /// The size of the noise in pixels that it claims to have.
     pub hash_scale: f64,
+    /// Over how many frames it claims to spread its thresholds (Eq. 6); 1 where a threshold stays what it is.
+    pub frames: u32,
     threshold: Evaluation<'a>,
-    interpolated: Option<Evaluation<'a>>,
+    interpolated: Option<OneByOne<'a>>,
+    failure: OnceLock<String>,
 }
 
 /// The cells that a subject claims to have at a footprint.
@@ -114,15 +127,57 @@ impl<'a> Subject<'a> {
         variant: Variant,
         threshold: impl Fn(&Footprint<f64>) -> T + Send + Sync + 'a,
     ) -> Self {
+        Self::of_fragments(name, precision, variant, move |fragment| threshold(&fragment.footprint))
+    }
+
+    /// Puts an `f32` function on trial, as [`Subject::new`] does.
+    #[must_use]
+    pub fn of_f32(
+        name: impl Into<String>,
+        variant: Variant,
+        threshold: impl Fn(&Footprint<f32>) -> f32 + Send + Sync + 'a,
+    ) -> Self {
+        Self::new(name, Precision::F32, variant, move |footprint| f64::from(threshold(&footprint.cast())))
+    }
+
+    /// Puts a function on trial that reads more of a fragment than its footprint, as [`Subject::new`] does.
+    #[must_use]
+    pub fn of_fragments<T: Into<Option<f64>>>(
+        name: impl Into<String>,
+        precision: Precision,
+        variant: Variant,
+        threshold: impl Fn(&Fragment) -> T + Send + Sync + 'a,
+    ) -> Self {
+        let evaluation = Evaluation::OneByOne(Box::new(move |fragment| threshold(fragment).into()));
+        Self::evaluated_by(name.into(), precision, variant, evaluation)
+    }
+
+    /// Puts a function of many fragments on trial, as [`Subject::new`] does: one threshold a fragment, NaN where it refuses
+    /// one.
+    ///
+    /// An error is a subject that could not be run; every claim that it meets ends without a verdict.
+    #[must_use]
+    pub fn batched(
+        name: impl Into<String>,
+        precision: Precision,
+        variant: Variant,
+        thresholds: impl Fn(&[Fragment]) -> Result<Vec<f64>, String> + Send + Sync + 'a,
+    ) -> Self {
+        Self::evaluated_by(name.into(), precision, variant, Evaluation::AllAtOnce(Box::new(thresholds)))
+    }
+
+    fn evaluated_by(name: String, precision: Precision, variant: Variant, threshold: Evaluation<'a>) -> Self {
         Self {
-            name: name.into(),
+            name,
             precision,
             variant,
             join: Join::Interpolate,
             nested_phase: false,
             hash_scale: 1.0,
-            threshold: Box::new(move |footprint| threshold(footprint).into()),
+            frames: 1,
+            threshold,
             interpolated: None,
+            failure: OnceLock::new(),
         }
     }
 
@@ -144,7 +199,7 @@ impl<'a> Subject<'a> {
         };
         Self {
             hash_scale: hashed.hash_scale,
-            interpolated: Some(Box::new(move |footprint| Some(evaluate(footprint).1))),
+            interpolated: Some(Box::new(move |fragment| Some(evaluate(&fragment.footprint).1))),
             ..Self::new(name, precision, hashed.variant, move |footprint| evaluate(footprint).0)
         }
     }
@@ -166,8 +221,8 @@ impl<'a> Subject<'a> {
             }
         };
         // Only the paper's join has a value that Eq. 2 makes uniform.
-        let interpolated: Option<Evaluation<'a>> = (robust.join == Join::Interpolate)
-            .then(|| Box::new(move |footprint: &Footprint<f64>| Some(evaluate(footprint)?.1)) as _);
+        let interpolated: Option<OneByOne<'a>> = (robust.join == Join::Interpolate)
+            .then(|| Box::new(move |fragment: &Fragment| Some(evaluate(&fragment.footprint)?.1)) as _);
         Self {
             hash_scale: robust.hash_scale,
             join: robust.join,
@@ -203,24 +258,45 @@ impl<'a> Subject<'a> {
         subjects
     }
 
-    /// Evaluates one footprint, which must be exact in the subject's precision (see [`Precision::round`]); `None` where
-    /// the subject refuses it.
+    /// Evaluates one fragment, whose footprint must be exact in the subject's precision (see [`Precision::round`]);
+    /// `None` where the subject refuses it or could not be run.
     #[must_use]
-    pub fn threshold(&self, footprint: &Footprint<f64>) -> Option<f64> {
-        (self.threshold)(footprint)
+    pub fn threshold(&self, fragment: impl Into<Fragment>) -> Option<f64> {
+        let fragment = fragment.into();
+        match &self.threshold {
+            Evaluation::OneByOne(threshold) => threshold(&fragment),
+            Evaluation::AllAtOnce(_) => self.thresholds(&[fragment]).first().copied().filter(|t| !t.is_nan()),
+        }
     }
 
-    /// Evaluates many footprints on all threads, NaN where the subject refuses one; the order and the bits do not
-    /// depend on the number of threads.
+    /// Evaluates many fragments or footprints on all threads, NaN where the subject refuses one; the order and the bits do
+    /// not depend on the number of threads.
+    ///
+    /// Where the subject could not be run ([`Subject::failure`]) all are NaN.
     #[must_use]
-    pub fn thresholds(&self, footprints: &[Footprint<f64>]) -> Vec<f64> {
-        evaluated(&self.threshold, footprints)
+    pub fn thresholds<F: Copy + Into<Fragment> + Sync>(&self, fragments: &[F]) -> Vec<f64> {
+        match &self.threshold {
+            Evaluation::OneByOne(threshold) => evaluated(threshold, fragments),
+            Evaluation::AllAtOnce(thresholds) => {
+                let fragments: Vec<Fragment> = fragments.iter().map(|&fragment| fragment.into()).collect();
+                thresholds(&fragments).unwrap_or_else(|reason| {
+                    self.failure.get_or_init(|| reason);
+                    vec![f64::NAN; fragments.len()]
+                })
+            }
+        }
     }
 
-    /// Evaluates the value before Eq. 2 of many footprints; `None` for a subject that has none.
+    /// Returns why the subject could not be run, where that came up.
     #[must_use]
-    pub fn interpolated(&self, footprints: &[Footprint<f64>]) -> Option<Vec<f64>> {
-        self.interpolated.as_ref().map(|interpolated| evaluated(interpolated, footprints))
+    pub fn failure(&self) -> Option<&str> {
+        self.failure.get().map(String::as_str)
+    }
+
+    /// Evaluates the value before Eq. 2 of many fragments or footprints; `None` for a subject that has none.
+    #[must_use]
+    pub fn interpolated<F: Copy + Into<Fragment> + Sync>(&self, fragments: &[F]) -> Option<Vec<f64>> {
+        self.interpolated.as_ref().map(|interpolated| evaluated(interpolated, fragments))
     }
 
     /// Returns the cells that the subject claims to have at a footprint, computed in its precision.
@@ -259,7 +335,7 @@ impl<'a> Subject<'a> {
     }
 }
 
-fn evaluated(evaluation: &Evaluation<'_>, footprints: &[Footprint<f64>]) -> Vec<f64> {
-    let value = |footprint: &Footprint<f64>| evaluation(footprint).unwrap_or(f64::NAN);
-    footprints.par_iter().with_min_len(1024).map(value).collect()
+fn evaluated<F: Copy + Into<Fragment> + Sync>(evaluation: &OneByOne<'_>, fragments: &[F]) -> Vec<f64> {
+    let value = |&fragment: &F| evaluation(&fragment.into()).unwrap_or(f64::NAN);
+    fragments.par_iter().with_min_len(1024).map(value).collect()
 }

@@ -3,6 +3,7 @@
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Parser, Subcommand};
 use hashed_alpha::check::subject::Precision;
+use hashed_alpha::check::{Budget, Suite};
 use hashed_alpha::scene::Scene;
 use hashed_alpha::threshold::hash::HashKind;
 use hashed_alpha::threshold::robust::{Join, Repair};
@@ -53,6 +54,8 @@ Examples:
   hashed-alpha check paper robust
   hashed-alpha check paper:anisotropic --seed 7 --out report-7
   hashed-alpha check paper --json --no-report | jq 'select(.verdict == \"rejected\")'
+  hashed-alpha check paper --suite paper
+  hashed-alpha check paper --only stability --only range --budget quick
   hashed-alpha check paper --expect findings.toml
 
 A file of known findings makes the exit code speak of news alone:
@@ -80,6 +83,16 @@ pub struct CheckArgs {
     /// Write no report
     #[arg(long, conflicts_with = "out")]
     pub no_report: bool,
+    /// What the subjects are measured by: `all` claims, or `paper`, where a rejection that the paper's own listing is known
+    /// for does not count
+    #[arg(long, default_value = "all", value_parser = one_of(Suite::ALL, Suite::name))]
+    pub suite: Suite,
+    /// How many samples are drawn: `quick` for a quarter, `nightly` for sixteen times as many
+    #[arg(long, default_value = "ci", value_parser = one_of(Budget::ALL, Budget::name))]
+    pub budget: Budget,
+    /// Try only this claim, or the family of this name; can be given several times
+    #[arg(long, value_name = "CLAIM")]
+    pub only: Vec<String>,
     /// TOML file of findings that are known and do not count as rejected
     #[arg(long, value_name = "FILE")]
     pub expect: Option<PathBuf>,

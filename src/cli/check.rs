@@ -4,8 +4,10 @@ use super::args::CheckArgs;
 use super::failure::Failure;
 use super::known::{self, Known};
 use super::{Ending, output};
+use hashed_alpha::check::claims::{self, Claim};
 use hashed_alpha::check::expectation::{Expectation, Judgement, judge};
-use hashed_alpha::check::{self, Outcome, Subject, Verdict, claims};
+use hashed_alpha::check::results::excuse_the_listings;
+use hashed_alpha::check::{self, Draw, Outcome, Subject, Suite, Verdict};
 use hashed_alpha::report::html::Run;
 use hashed_alpha::report::{directory, json, text};
 use indicatif::ProgressBar;
@@ -22,14 +24,22 @@ pub fn run(args: &CheckArgs) -> Result<Ending, Failure> {
         typed => typed,
     };
     let subjects = chosen(typed)?;
+    let claims = chosen_claims(&args.only)?;
     let known = args.expect.as_deref().map(known::read).transpose()?.unwrap_or_default();
     let folder = (!args.no_report).then_some(args.out.as_path());
     folder.map_or(Ok(()), create)?;
 
-    let mut outcomes = tried(&subjects, args.seed);
+    let draw = Draw { seed: args.seed, budget: args.budget, round: 0 };
+    let mut outcomes = tried(&claims, &subjects, &draw);
+    if args.suite == Suite::Paper {
+        excuse_the_listings(&mut outcomes);
+    }
     let judgement = judge(&outcomes, &known.expectations);
     for &index in &judgement.known {
-        outcomes[index].known = Some(known.reason(&outcomes[index]).to_owned());
+        let reason = known.reason(&outcomes[index]);
+        if !reason.is_empty() {
+            outcomes[index].known = Some(reason.to_owned());
+        }
     }
     if let Some(folder) = folder {
         directory::write_report(folder, &outcomes, &this_run(args.seed))?;
@@ -75,12 +85,27 @@ fn chosen(typed: &[String]) -> Result<Vec<Subject<'static>>, Failure> {
     Ok(all)
 }
 
+/// Picks the claims that were typed, by their identifier or family; all where nothing was.
+fn chosen_claims(typed: &[String]) -> Result<Vec<Claim>, Failure> {
+    let is_meant = |claim: &Claim, typed: &String| {
+        claim.id.strip_prefix(typed.as_str()).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+    };
+    if let Some(unknown) = typed.iter().find(|typed| !claims::ALL.iter().any(|claim| is_meant(claim, typed)))
+    {
+        let names: Vec<_> = claims::ALL.iter().map(|claim| claim.id).collect();
+        return Err(Failure::Usage(format!("unknown claim `{unknown}`; known are {}", names.join(", "))));
+    }
+    let wanted = |claim: &&Claim| typed.is_empty() || typed.iter().any(|typed| is_meant(claim, typed));
+    Ok(claims::ALL.iter().filter(wanted).copied().collect())
+}
+
 /// Runs the suite with a bar on stderr, where that is a terminal.
-fn tried(subjects: &[Subject<'_>], seed: u64) -> Vec<Outcome> {
-    let (claims, count) = (claims::ALL.len(), subjects.len());
-    output::remark("note", format_args!("seed {seed}, {claims} claims on {count} subjects"));
-    let bar = ProgressBar::new((claims * count) as u64);
-    let outcomes = check::run(&claims::ALL, subjects, seed, || bar.inc(1));
+fn tried(claims: &[Claim], subjects: &[Subject<'_>], draw: &Draw) -> Vec<Outcome> {
+    let (seed, count, budget) = (draw.seed, subjects.len(), draw.budget.name());
+    let words = format_args!("seed {seed}, budget {budget}, {} claims on {count} subjects", claims.len());
+    output::remark("note", words);
+    let bar = ProgressBar::new((claims.len() * count) as u64);
+    let outcomes = check::run_claims(claims, subjects, draw, || bar.inc(1));
     bar.finish_and_clear();
     outcomes
 }
@@ -154,6 +179,8 @@ mod tests {
             n: 0,
             p: None,
             p_holm: None,
+            rounds: 1,
+            listing_fails: None,
             effect: None,
             effect_name: "",
             detectable: None,

@@ -82,7 +82,7 @@ fn parse(text: &str) -> Result<Known, toml::de::Error> {
 }
 
 fn claim<'de, D: Deserializer<'de>>(deserializer: D) -> Result<String, D::Error> {
-    one_of(&claims::ALL.map(|claim| claim.id), deserializer)
+    one_of(&claims::ALL.iter().map(|claim| claim.id).collect::<Vec<_>>(), deserializer)
 }
 
 fn precision<'de, D: Deserializer<'de>>(deserializer: D) -> Result<String, D::Error> {

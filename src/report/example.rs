@@ -24,6 +24,8 @@ pub fn consistent() -> Outcome {
         seed: 18_446_744_073_709_551_615,
         finding: None,
         known: None,
+        rounds: 1,
+        listing_fails: None,
         evidence: Evidence::Histograms(vec![NamedHistogram {
             name: "all".to_owned(),
             counts: vec![9, 11, 10, 10],

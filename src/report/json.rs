@@ -5,7 +5,7 @@ use serde::Serialize;
 use std::io::{self, Write};
 
 /// The version of the keys; grows when one changes its meaning or goes.
-pub const SCHEMA: u32 = 1;
+pub const SCHEMA: u32 = 2;
 
 /// The keys of one line, in their order.
 #[derive(Serialize)]
@@ -29,6 +29,8 @@ struct Line<'a> {
     statistic_name: &'a str,
     effect_name: &'a str,
     known: Option<&'a str>,
+    rounds: u32,
+    listing_fails: Option<&'a str>,
 }
 
 impl<'a> From<&'a Outcome> for Line<'a> {
@@ -54,6 +56,8 @@ impl<'a> From<&'a Outcome> for Line<'a> {
             statistic_name: &outcome.statistic_name,
             effect_name: outcome.effect_name,
             known: outcome.known.as_deref(),
+            rounds: outcome.rounds,
+            listing_fails: outcome.listing_fails,
         }
     }
 }
@@ -89,12 +93,13 @@ mod tests {
     fn a_line_has_the_promised_keys_in_their_order() {
         assert_eq!(
             lines()[0],
-            "{\"schema\":1,\"check\":\"uniform.by_lerp_factor\",\"anchor\":\"§5.4.2, Eq. 2\",\
+            "{\"schema\":2,\"check\":\"uniform.by_lerp_factor\",\"anchor\":\"§5.4.2, Eq. 2\",\
              \"subject\":\"paper:isotropic\",\"precision\":\"f32\",\"verdict\":\"consistent\",\
              \"statistic\":61.237,\"n\":1048576,\"p\":0.5386,\"p_holm\":1.0,\"effect\":0.0000584,\
              \"detectable\":0.00016,\"seed\":18446744073709551615,\"finding\":null,\"expected\":\"consistent\",\
              \"statement\":\"Thresholds are uniform for every lerp factor.\",\
-             \"statistic_name\":\"chi-square, 63 dof\",\"effect_name\":\"excess chi-square per sample\",\"known\":null}"
+             \"statistic_name\":\"chi-square, 63 dof\",\"effect_name\":\"excess chi-square per sample\",\"known\":null,\"rounds\":1,\
+             \"listing_fails\":null}"
         );
     }
 
@@ -104,8 +109,8 @@ mod tests {
         assert!(lines[1].contains("\"statistic\":null") && lines[4].contains("\"effect\":null"));
         for line in &lines {
             let value: serde_json::Value = serde_json::from_str(line).unwrap();
-            assert_eq!(value["schema"], 1);
-            assert_eq!(value.as_object().unwrap().len(), 19);
+            assert_eq!(value["schema"], 2);
+            assert_eq!(value.as_object().unwrap().len(), 21);
         }
     }
 }

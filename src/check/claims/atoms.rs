@@ -2,9 +2,9 @@
 
 use super::cells::at_scale;
 use super::uniform::reject_outsiders;
-use super::{Attempt, Claim, Conclusion, Trial};
+use super::{Attempt, Claim, Conclusion, Promise, Trial};
 use crate::check::tolerance::{ATOM_BLOCK, ATOM_THRESHOLD, END, END_LAYERS, POWER, SINGLE_LEVEL, SPREAD};
-use crate::check::{Evidence, Subject, Verdict};
+use crate::check::{Draw, Evidence, Subject, Verdict};
 use crate::stats::{binomial, power, seed};
 use crate::threshold::footprint::Footprint;
 use glam::{DVec3, dvec3};
@@ -16,6 +16,7 @@ pub const ZERO: Claim = Claim {
     anchor: "§5.1, §5 (the clamp of Listing 1)",
     statement: "where one octave has all the weight, thresholds up to 1e-5 come up no more often than that",
     expected: Verdict::Consistent,
+    promise: Some(Promise::Root(6.0)),
     run: zero,
 };
 
@@ -25,6 +26,7 @@ pub const ENDS: Claim = Claim {
     anchor: "§5 (thresholds in [0, 1))",
     statement: "the lowest and the highest 2^-10 of the range come up with that probability, no more and no less",
     expected: Verdict::Consistent,
+    promise: Some(Promise::Root(0.6)),
     run: ends,
 };
 
@@ -52,9 +54,14 @@ fn block_of_cells(
     Ok(u64::from(nx) * u64::from(ny) * u64::from(layers))
 }
 
-fn zero(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
+/// Layers of a block: no fewer than [`Budget::Ci`](crate::check::Budget::Ci) has.
+fn layers(draw: &Draw, at_ci: u32) -> u32 {
+    draw.samples_at_least(at_ci as usize) as u32
+}
+
+fn zero(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     let mut low = 0;
-    let n = block_of_cells(subject, ATOM_BLOCK[2], seed::rng(ZERO.id, seed), |values| {
+    let n = block_of_cells(subject, layers(draw, ATOM_BLOCK[2]), draw.rng(ZERO.id), |values| {
         low += values.iter().filter(|&&value| value <= ATOM_THRESHOLD).count() as u64;
     })?;
     let mean = n as f64 * ATOM_THRESHOLD;
@@ -74,9 +81,9 @@ fn zero(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
     })
 }
 
-fn ends(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
+fn ends(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     let mut counts = [0_u64; 2];
-    let n = block_of_cells(subject, END_LAYERS, seed::rng(ENDS.id, seed), |values| {
+    let n = block_of_cells(subject, layers(draw, END_LAYERS), draw.rng(ENDS.id), |values| {
         counts[0] += values.iter().filter(|&&value| value < END).count() as u64;
         counts[1] += values.iter().filter(|&&value| value >= 1.0 - END).count() as u64;
     })?;

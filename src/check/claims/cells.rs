@@ -1,14 +1,14 @@
 //! Cells in odd places: around the origin, far away, and in the mirror.
 
 use super::uniform::reject_outsiders;
-use super::{Attempt, Claim, Conclusion, Trial};
+use super::{Attempt, Claim, Conclusion, Promise, Trial};
 use crate::check::evidence::NamedHistogram;
 use crate::check::sample::UsedCells;
 use crate::check::tolerance::{
     BINS, DRAWS_A_SAMPLE, FAMILY_LEVEL, MIRROR_PAIRS, ORIGIN_OCTAVES, POWER, SINGLE_LEVEL, SPREAD,
     WINDOW_OFFSETS, WINDOW_SAMPLES, WINDOW_SIZE,
 };
-use crate::check::{Evidence, Subject, Verdict};
+use crate::check::{Draw, Evidence, Subject, Verdict};
 use crate::stats::chi_square::{self, ChiSquare};
 use crate::stats::histogram::Histogram;
 use crate::stats::{correlation, ecdf, power, seed};
@@ -23,6 +23,7 @@ pub const ORIGIN: Claim = Claim {
     anchor: "§5.1 (hash3D at the origin), not in the paper",
     statement: "next to the object's origin, in every octant, thresholds at different scales are uniform",
     expected: Verdict::Consistent,
+    promise: Some(Promise::Root(0.7)),
     run: origin,
 };
 
@@ -32,6 +33,7 @@ pub const WINDOW: Claim = Claim {
     anchor: "§5.1 (hash inputs of any size), not in the paper",
     statement: "thresholds are uniform in windows of cells up to 2^23 cells away from the origin",
     expected: Verdict::Consistent,
+    promise: Some(Promise::Linear(0.03)),
     run: window,
 };
 
@@ -41,6 +43,7 @@ pub const MIRROR: Claim = Claim {
     anchor: "§5.1 (hash outputs replace uniform random numbers), not in the paper",
     statement: "thresholds of mirrored cells and of cells with two coordinates exchanged are uncorrelated",
     expected: Verdict::Consistent,
+    promise: Some(Promise::Root(0.1)),
     run: mirror,
 };
 
@@ -78,8 +81,8 @@ fn fractions(rng: &mut Xoshiro256PlusPlus) -> [f64; 3] {
     [0; 3].map(|_| 0.01 + 0.98 * seed::uniform01(rng))
 }
 
-fn origin(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
-    let mut rng = seed::rng(ORIGIN.id, seed);
+fn origin(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
+    let mut rng = draw.rng(ORIGIN.id);
     let mut worst: Option<(ecdf::KolmogorovSmirnov, String)> = None;
     for octant in 0..8_u32 {
         let sign = DVec3::from_array([1, 2, 4].map(|bit| if octant & bit == 0 { 1.0 } else { -1.0 }));
@@ -125,14 +128,14 @@ fn origin(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
     })
 }
 
-fn window(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
-    let mut rng = seed::rng(WINDOW.id, seed);
+fn window(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
+    let mut rng = draw.rng(WINDOW.id);
     let directions = [("x", DVec3::X), ("all axes", DVec3::ONE)];
     let mut tests: Vec<ChiSquare> = Vec::new();
     let mut evidence = Vec::new();
     for offset in WINDOW_OFFSETS {
         for (along, direction) in directions {
-            let samples = window_samples(subject, direction * offset, &mut rng);
+            let samples = window_samples(subject, direction * offset, draw.samples(WINDOW_SAMPLES), &mut rng);
             let values = subject.thresholds(&samples);
             reject_outsiders(&samples, &values)?;
             let mut counts = Histogram::new(BINS);
@@ -157,11 +160,16 @@ fn window(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
 /// Draws footprints whose cells lie in a window that begins at `offset`, no two of which touch the same cell.
 ///
 /// At a scale of 1: all weight is on one octave, and positions are exact as far out as the indices of the cells are.
-fn window_samples(subject: &Subject<'_>, offset: DVec3, rng: &mut Xoshiro256PlusPlus) -> Vec<Footprint<f64>> {
+fn window_samples(
+    subject: &Subject<'_>,
+    offset: DVec3,
+    n: usize,
+    rng: &mut Xoshiro256PlusPlus,
+) -> Vec<Footprint<f64>> {
     let mut used = UsedCells::default();
-    let mut samples = Vec::with_capacity(WINDOW_SAMPLES);
-    for _ in 0..WINDOW_SAMPLES * DRAWS_A_SAMPLE {
-        if samples.len() == WINDOW_SAMPLES {
+    let mut samples = Vec::with_capacity(n);
+    for _ in 0..n * DRAWS_A_SAMPLE {
+        if samples.len() == n {
             break;
         }
         let within = WINDOW_SIZE.map(|size| (seed::uniform01(rng) * size).floor());
@@ -175,17 +183,18 @@ fn window_samples(subject: &Subject<'_>, offset: DVec3, rng: &mut Xoshiro256Plus
     samples
 }
 
-fn mirror(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
+fn mirror(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     type Symmetry = fn(DVec3) -> DVec3;
     const SYMMETRIES: [(&str, Symmetry); 3] = [
         ("opposite cells", |v| -v),
         ("cells opposite in x and y", |v| dvec3(-v.x, -v.y, v.z)),
         ("cells with x and y exchanged", |v| dvec3(v.y, v.x, v.z)),
     ];
-    let mut rng = seed::rng(MIRROR.id, seed);
+    let mut rng = draw.rng(MIRROR.id);
     let mut used = UsedCells::default();
-    let mut samples: Vec<Footprint<f64>> = Vec::with_capacity(4 * MIRROR_PAIRS);
-    while samples.len() < 4 * MIRROR_PAIRS {
+    let pairs = draw.samples(MIRROR_PAIRS);
+    let mut samples: Vec<Footprint<f64>> = Vec::with_capacity(4 * pairs);
+    while samples.len() < 4 * pairs {
         let cell = draw_cell(&mut rng);
         // Corners of cells, so that the mirrored position is the corner of the mirrored cell.
         let first = at_scale(subject.variant, subject.hash_scale, cell, fractions(&mut rng));

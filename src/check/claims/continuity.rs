@@ -7,7 +7,7 @@
 use super::cells::{at_scale, draw_cell, numerator};
 use super::range::describe;
 use super::uniform::reject_outsiders;
-use super::{Attempt, Claim, Conclusion, Trial, detectable_share};
+use super::{Attempt, Claim, Conclusion, Promise, Trial, detectable_share};
 use crate::check::sample::{UsedCells, placement};
 use crate::check::subject::{Nominal, Precision};
 use crate::check::tolerance::{
@@ -15,7 +15,7 @@ use crate::check::tolerance::{
     INTERPOLATION_SLOPE, LOG_SCALE_STEP, OTHER_AXES, POP_ROUNDING, SWEEP_POINTS, TILT_OCTAVES, TURN_STEP,
     ZOOM_OCTAVES,
 };
-use crate::check::{Evidence, Subject, Verdict};
+use crate::check::{Draw, Evidence, Subject, Verdict};
 use crate::stats::{binomial, seed};
 use crate::threshold::footprint::Footprint;
 use crate::threshold::robust::Join;
@@ -30,7 +30,8 @@ pub const ZOOM: Claim = Claim {
     anchor: "§5.4.2 (interpolating between two scales), §6.2",
     statement: "while the camera comes closer, the threshold of a fixed point changes without jumps",
     expected: Verdict::Consistent,
-    run: |subject, seed| {
+    promise: Some(Promise::Linear(0.2)),
+    run: |subject, draw| {
         let zoom = Motion {
             steps: (ZOOM_OCTAVES / LOG_SCALE_STEP) as usize,
             length: ZOOM_OCTAVES,
@@ -41,7 +42,7 @@ pub const ZOOM: Claim = Claim {
                 [u * scale, v * scale]
             },
         };
-        sweep(subject, &mut seed::rng(ZOOM.id, seed), &zoom)
+        sweep(subject, draw, ZOOM.id, &zoom)
     },
 };
 
@@ -51,7 +52,8 @@ pub const ROTATION: Claim = Claim {
     anchor: "§6.2 (one scale an axis)",
     statement: "while the object turns about the line of sight, the threshold of a fixed point changes without jumps",
     expected: Verdict::Consistent,
-    run: |subject, seed| {
+    promise: Some(Promise::Linear(0.5)),
+    run: |subject, draw| {
         let quarter_turn = Motion {
             steps: (FRAC_PI_2 / TURN_STEP) as usize,
             length: 1.0,
@@ -63,7 +65,7 @@ pub const ROTATION: Claim = Claim {
                 [u * turn.x + 2.0 * v * turn.y, 2.0 * v * turn.x - u * turn.y]
             },
         };
-        sweep(subject, &mut seed::rng(ROTATION.id, seed), &quarter_turn)
+        sweep(subject, draw, ROTATION.id, &quarter_turn)
     },
 };
 
@@ -73,7 +75,8 @@ pub const TILT: Claim = Claim {
     anchor: "§6 (surfaces at grazing angles)",
     statement: "while the surface tilts to 85 degrees, the threshold of a fixed point changes without jumps",
     expected: Verdict::Consistent,
-    run: |subject, seed| {
+    promise: Some(Promise::Linear(0.5)),
+    run: |subject, draw| {
         let tilt = Motion {
             steps: (TILT_OCTAVES / LOG_SCALE_STEP) as usize,
             length: 1.0,
@@ -81,7 +84,7 @@ pub const TILT: Claim = Claim {
             effect_name: "pops per point and tilt from 0 to 85 degrees",
             derivatives: |[u, v], at| [u, v * libm::exp2(TILT_OCTAVES * at)],
         };
-        sweep(subject, &mut seed::rng(TILT.id, seed), &tilt)
+        sweep(subject, draw, TILT.id, &tilt)
     },
 };
 
@@ -91,6 +94,7 @@ pub const OCTAVE_BOUNDARY: Claim = Claim {
     anchor: "§5, Listings 1 and 2 (floor, ceil and fract of log2)",
     statement: "across a power of two, rounding by rounding, the threshold changes by no more than roundings",
     expected: Verdict::Consistent,
+    promise: Some(Promise::Linear(2.0e-3)),
     run: octave_boundary,
 };
 
@@ -107,15 +111,17 @@ struct Motion {
     derivatives: fn([DVec3; 2], f64) -> [DVec3; 2],
 }
 
-fn sweep(subject: &Subject<'_>, rng: &mut Xoshiro256PlusPlus, motion: &Motion) -> Attempt<Trial> {
+fn sweep(subject: &Subject<'_>, draw: &Draw, claim: &str, motion: &Motion) -> Attempt<Trial> {
     let dithered = subject.join == Join::Dithered;
     if dithered && !motion.monotone {
         let reason = "the dithered join switches as often as a scale passes the place of its cell; \
                       continuity.zoom and continuity.tilt, where each passes once, count the switches";
         return Ok(Trial::without(Conclusion::NotApplicable, reason));
     }
+    let rng = &mut draw.rng(claim);
+    let points = draw.samples(SWEEP_POINTS);
     let mut pops = Pops::default();
-    for _ in 0..SWEEP_POINTS {
+    for _ in 0..points {
         let position = placement(rng);
         let tangents = tangents(rng);
         let views: Vec<Footprint<f64>> = (0..=motion.steps)
@@ -132,7 +138,7 @@ fn sweep(subject: &Subject<'_>, rng: &mut Xoshiro256PlusPlus, motion: &Motion) -
             pops.add_jumps(subject, &views, &thresholds);
         }
     }
-    let motions = SWEEP_POINTS as f64 * motion.length;
+    let motions = points as f64 * motion.length;
     Ok(pops.into_trial(motions, motion.effect_name))
 }
 
@@ -253,13 +259,13 @@ fn rounding(precision: Precision) -> f64 {
     POP_ROUNDING[usize::from(precision == Precision::F64)]
 }
 
-fn octave_boundary(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
-    let mut rng = seed::rng(OCTAVE_BOUNDARY.id, seed);
+fn octave_boundary(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
+    let mut rng = draw.rng(OCTAVE_BOUNDARY.id);
     let mut pops = Pops::default();
     let (mut changes, mut expected) = (0, 0.0);
     let mut used = UsedCells::default();
     for octave in BOUNDARY_OCTAVES {
-        for _ in 0..BOUNDARY_POINTS {
+        for _ in 0..draw.samples(BOUNDARY_POINTS) {
             let views = across_octave(subject, octave, &mut rng);
             if !used.claim(subject, &views[..1]) {
                 continue;

@@ -2,10 +2,9 @@
 //! surfaces so far from the origin that neighbouring pixels have the same position.
 
 use super::range::describe;
-use super::{Attempt, Claim, Conclusion, Trial, detectable_share};
+use super::{Attempt, Claim, Conclusion, Promise, Trial, detectable_share};
 use crate::check::tolerance::{FAR_COORDINATES, FAR_FOOTPRINTS, FAR_QUADS};
-use crate::check::{Evidence, Subject, Verdict};
-use crate::stats::seed;
+use crate::check::{Draw, Evidence, Subject, Verdict};
 use crate::stats::seed::uniform01;
 use crate::threshold::footprint::Footprint;
 use glam::{DVec3, Vec3, vec3};
@@ -17,6 +16,7 @@ pub const DEGENERATE: Claim = Claim {
     anchor: "§5, §6.2, Listings 1 and 2 (divisions and logarithms); degenerate inputs not in the paper",
     statement: "a footprint with a zero, tiny, huge, infinite or NaN component is refused or has a threshold in (0, 1]",
     expected: Verdict::Consistent,
+    promise: None,
     run: degenerate,
 };
 
@@ -27,6 +27,7 @@ pub const FAR_FROM_ORIGIN: Claim = Claim {
     statement: "on a wall 1e4 to 1e6 units from the origin, with pixels of 0.05 to 1.5 units in the last place of an \
                 f32 coordinate, every threshold is a number in (0, 1]",
     expected: Verdict::Consistent,
+    promise: Some(Promise::Linear(3.0e-4)),
     run: far_from_origin,
 };
 
@@ -84,14 +85,14 @@ fn is_finite(footprint: &Footprint<f64>) -> bool {
     footprint.position.is_finite() && footprint.dpdx.is_finite() && footprint.dpdy.is_finite()
 }
 
-fn degenerate(subject: &Subject<'_>, _: u64) -> Attempt<Trial> {
+fn degenerate(subject: &Subject<'_>, _: &Draw) -> Attempt<Trial> {
     let (mut n, mut refused, mut outside) = (0_u64, 0_u64, 0_u64);
     let mut first = None;
     for value in VALUES {
         for places in PLACES {
             let footprint = subject.precision.round(&replaced(value, places));
             n += 1;
-            match subject.threshold(&footprint) {
+            match subject.threshold(footprint) {
                 // Only what is not finite may be refused: a pixel with finite derivatives has to be drawn.
                 None if !is_finite(&footprint) => refused += 1,
                 Some(threshold) if is_threshold(threshold) => {}
@@ -131,14 +132,14 @@ fn outsiders(outside: u64, n: u64, detectable: Option<f64>, seen: String) -> Tri
     }
 }
 
-fn far_from_origin(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
-    let mut rng = seed::rng(FAR_FROM_ORIGIN.id, seed);
+fn far_from_origin(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
+    let mut rng = draw.rng(FAR_FROM_ORIGIN.id);
     let (mut n, mut outside) = (0, 0);
     let (mut seen, mut first) = (Vec::new(), None);
     for ratio in FAR_FOOTPRINTS {
         let quads: Vec<Footprint<f64>> = FAR_COORDINATES
             .into_iter()
-            .flat_map(|coordinate| std::iter::repeat_n(coordinate, FAR_QUADS))
+            .flat_map(|coordinate| std::iter::repeat_n(coordinate, draw.samples(FAR_QUADS)))
             .map(|coordinate| far_quad(coordinate, ratio, &mut rng).cast())
             .collect();
         let thresholds = subject.thresholds(&quads);
@@ -177,6 +178,7 @@ fn far_quad(coordinate: f32, ratio: f64, rng: &mut Xoshiro256PlusPlus) -> Footpr
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::stats::seed;
 
     #[test]
     fn a_value_takes_its_places_and_no_other() {

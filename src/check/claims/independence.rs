@@ -1,11 +1,11 @@
 //! Thresholds of different cells have nothing to do with each other.
 
 use super::uniform::reject_outsiders;
-use super::{Attempt, Claim, Trial};
+use super::{Attempt, Claim, Promise, Trial};
 use crate::check::sample::{UsedCells, footprint, general_scenes, moved, placement};
 use crate::check::tolerance::{DRAWS_A_PLACE, DRAWS_A_SAMPLE, FAR_PAIRS, NEIGHBOUR_PAIRS, PAIR_BINS};
-use crate::check::{Evidence, Subject, Verdict};
-use crate::stats::{chi_square, correlation, seed};
+use crate::check::{Draw, Evidence, Subject, Verdict};
+use crate::stats::{chi_square, correlation};
 use crate::threshold::footprint::Footprint;
 use glam::{DVec3, dvec3};
 use rand::rngs::Xoshiro256PlusPlus;
@@ -16,6 +16,7 @@ pub const NEIGHBOURS: Claim = Claim {
     anchor: "§5 (hash outputs replace uniform random numbers)",
     statement: "thresholds in neighbouring coarse cells along x, y and z are independent",
     expected: Verdict::Consistent,
+    promise: Some(Promise::Linear(0.02)),
     run: neighbours,
 };
 
@@ -25,6 +26,7 @@ pub const DIAGONALS: Claim = Claim {
     anchor: "§5 (hash outputs replace uniform random numbers)",
     statement: "thresholds in coarse cells that touch in an edge or a corner are independent",
     expected: Verdict::Consistent,
+    promise: Some(Promise::Linear(0.02)),
     run: diagonals,
 };
 
@@ -34,6 +36,7 @@ pub const ACROSS_ZERO: Claim = Claim {
     anchor: "§5.4.1 (floor of the coordinates); not in the paper",
     statement: "thresholds on the two sides of a coordinate's zero are independent",
     expected: Verdict::Consistent,
+    promise: Some(Promise::Linear(0.02)),
     run: across_zero,
 };
 
@@ -43,6 +46,7 @@ pub const OCTAVES: Claim = Claim {
     anchor: "§5.4.2 (two scales); not in the paper",
     statement: "the noise of one octave is no copy of another one's: neither at half the size, nor two octaves down",
     expected: Verdict::Consistent,
+    promise: Some(Promise::Linear(0.02)),
     run: octaves,
 };
 
@@ -57,13 +61,19 @@ fn apart<'a>(subject: &'a Subject<'_>, cells: DVec3) -> Pairing<'a> {
     })
 }
 
-fn neighbours(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
+fn neighbours(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     let pairings = DVec3::AXES.map(|axis| apart(subject, axis));
-    let rng = seed::rng(NEIGHBOURS.id, seed);
-    independent_pairs(subject, &pairings, NEIGHBOUR_PAIRS, rng, "thresholds of neighbouring cells")
+    let rng = draw.rng(NEIGHBOURS.id);
+    independent_pairs(
+        subject,
+        &pairings,
+        draw.samples(NEIGHBOUR_PAIRS),
+        rng,
+        "thresholds of neighbouring cells",
+    )
 }
 
-fn diagonals(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
+fn diagonals(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     // One of each two opposite directions; those along an axis have a claim of their own.
     let steps = [-1.0, 0.0, 1.0];
     let all =
@@ -73,17 +83,17 @@ fn diagonals(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
         .filter(|cells| cells.abs().element_sum() > 1.0)
         .map(|cells| apart(subject, cells))
         .collect();
-    let rng = seed::rng(DIAGONALS.id, seed);
+    let rng = draw.rng(DIAGONALS.id);
     independent_pairs(
         subject,
         &pairings,
-        FAR_PAIRS,
+        draw.samples_at_least(FAR_PAIRS),
         rng,
         "thresholds of cells that touch in an edge or corner",
     )
 }
 
-fn across_zero(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
+fn across_zero(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     let pairing = |axis: usize| -> Pairing<'_> {
         Box::new(move |found| {
             let side = 1.0 / subject.nominal(&found).coarse_scale[axis];
@@ -94,11 +104,17 @@ fn across_zero(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
             [first, moved(&first, DVec3::AXES[axis] * side, subject.precision)]
         })
     };
-    let rng = seed::rng(ACROSS_ZERO.id, seed);
-    independent_pairs(subject, &[0, 1, 2].map(pairing), FAR_PAIRS, rng, "thresholds on the two sides of zero")
+    let rng = draw.rng(ACROSS_ZERO.id);
+    independent_pairs(
+        subject,
+        &[0, 1, 2].map(pairing),
+        draw.samples_at_least(FAR_PAIRS),
+        rng,
+        "thresholds on the two sides of zero",
+    )
 }
 
-fn octaves(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
+fn octaves(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     let finer = |found: &Footprint<f64>, times: f64| Footprint {
         position: found.position,
         dpdx: found.dpdx / times,
@@ -117,9 +133,9 @@ fn octaves(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
         let first = moved(&found, -beyond / scale, subject.precision);
         [first, finer(&first, 4.0)]
     });
-    let rng = seed::rng(OCTAVES.id, seed);
+    let rng = draw.rng(OCTAVES.id);
     let seen = "thresholds of two octaves";
-    independent_pairs(subject, &[half_the_size, descendant], FAR_PAIRS, rng, seen)
+    independent_pairs(subject, &[half_the_size, descendant], draw.samples_at_least(FAR_PAIRS), rng, seen)
 }
 
 /// Tests `n` pairs of each kind for independence, no two pairs touching the same cell.

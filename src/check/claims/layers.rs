@@ -1,16 +1,16 @@
 //! Transparent layers one behind the other: each lets its own share through, whatever the others do.
 
 use super::uniform::reject_outsiders;
-use super::{Attempt, Claim, Conclusion, Trial};
+use super::{Attempt, Claim, Conclusion, Promise, Trial};
 use crate::check::sample::{UsedCells, footprint, moved, placement};
 use crate::check::tolerance::{
     DRAWS_A_SAMPLE, LAYER_PAIRS, LAYER_SAMPLES, LEAST_LAYER_DISTANCE, PAIR_BINS, PLACEMENT,
 };
-use crate::check::{Evidence, Subject, Verdict};
+use crate::check::{Draw, Evidence, Subject, Verdict};
 use crate::scene::Scene;
 use crate::stats::chi_square::{self, ChiSquare};
+use crate::stats::correlation;
 use crate::stats::seed::uniform01;
-use crate::stats::{correlation, seed};
 use crate::threshold::footprint::Footprint;
 use rand::rngs::Xoshiro256PlusPlus;
 
@@ -21,11 +21,12 @@ pub const PARALLEL: Claim = Claim {
     statement: "thresholds at the same x and y on two planes of constant z are uniform and independent, so that two \
                 half-transparent layers are both kept at a quarter of the pixels",
     expected: Verdict::Consistent,
+    promise: Some(Promise::Linear(0.015)),
     run: parallel,
 };
 
-fn parallel(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
-    let mut rng = seed::rng(PARALLEL.id, seed);
+fn parallel(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
+    let mut rng = draw.rng(PARALLEL.id);
     let Some(wall) = Scene::all().into_iter().find(|scene| scene.name == "wall") else {
         return Ok(Trial::without(Conclusion::Inconclusive, "there is no scene of that name"));
     };
@@ -33,7 +34,7 @@ fn parallel(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
     let (mut squares, mut visible): (Vec<ChiSquare>, Vec<ChiSquare>) = (Vec::new(), Vec::new());
     let mut worst = 0.0_f64;
     for _ in 0..LAYER_PAIRS {
-        let samples = samples(subject, &wall, &mut rng);
+        let samples = samples(subject, &wall, draw.samples(LAYER_SAMPLES), &mut rng);
         let values = subject.thresholds(&samples);
         reject_outsiders(&samples, &values)?;
         let pairs = || values.chunks_exact(2).map(|pair| (pair[0], pair[1]));
@@ -71,7 +72,12 @@ fn parallel(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
 }
 
 /// Footprints in twos, at the same place on two planes of constant z; no two pairs touch the same cell.
-fn samples(subject: &Subject<'_>, wall: &Scene, rng: &mut Xoshiro256PlusPlus) -> Vec<Footprint<f64>> {
+fn samples(
+    subject: &Subject<'_>,
+    wall: &Scene,
+    n: usize,
+    rng: &mut Xoshiro256PlusPlus,
+) -> Vec<Footprint<f64>> {
     let place = placement(rng);
     let mut height = || (2.0 * uniform01(rng) - 1.0) * PLACEMENT;
     let near = height();
@@ -82,9 +88,9 @@ fn samples(subject: &Subject<'_>, wall: &Scene, rng: &mut Xoshiro256PlusPlus) ->
         }
     };
     let mut used = UsedCells::default();
-    let mut samples = Vec::with_capacity(2 * LAYER_SAMPLES);
-    for _ in 0..LAYER_SAMPLES * DRAWS_A_SAMPLE {
-        if samples.len() == 2 * LAYER_SAMPLES {
+    let mut samples = Vec::with_capacity(2 * n);
+    for _ in 0..n * DRAWS_A_SAMPLE {
+        if samples.len() == 2 * n {
             break;
         }
         let found = footprint(wall, rng);

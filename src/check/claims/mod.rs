@@ -12,7 +12,7 @@ pub mod stability;
 pub mod uniform;
 
 use super::tolerance::{POWER, SINGLE_LEVEL};
-use super::{Evidence, Subject, Verdict};
+use super::{Draw, Evidence, Subject, Verdict};
 use crate::stats::chi_square::ChiSquare;
 use crate::stats::power;
 
@@ -27,13 +27,38 @@ pub struct Claim {
     pub statement: &'static str,
     /// What a sound subject answers: [`Verdict::Rejected`] for a negative control.
     pub expected: Verdict,
-    /// Tries the claim on a subject with inputs that follow from the identifier and the seed; an error is a trial that
+    /// The smallest effect that the claim promises to see; absent where a fixed table is gone through.
+    pub promise: Option<Promise>,
+    /// Tries the claim on a subject with inputs that follow from the identifier and the draw; an error is a trial that
     /// ended before its statistic.
-    pub run: fn(&Subject<'_>, u64) -> Attempt<Trial>,
+    pub run: fn(&Subject<'_>, &Draw) -> Attempt<Trial>,
+}
+
+/// An effect that a claim promises to see with power 0.999, and how what it sees depends on the number of samples.
+///
+/// A trial that would not have seen it is inconclusive, unless it rejects.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Promise {
+    /// Twice the samples show half the effect: an excess of chi-square, a share where none is allowed.
+    Linear(f64),
+    /// Four times the samples show half the effect: a shift, a distance, a correlation.
+    Root(f64),
+}
+
+impl Promise {
+    /// Returns the samples that the promise needs, where `n` samples show an effect of `detectable`.
+    #[must_use]
+    pub fn samples(self, n: u64, detectable: f64) -> u64 {
+        let times = match self {
+            Self::Linear(effect) => detectable / effect,
+            Self::Root(effect) => (detectable / effect) * (detectable / effect),
+        };
+        (n as f64 * times).ceil() as u64
+    }
 }
 
 /// Every claim, in the order of the report.
-pub const ALL: [Claim; 26] = [
+pub const ALL: &[Claim] = &[
     range::RANGE,
     degenerate::DEGENERATE,
     degenerate::FAR_FROM_ORIGIN,
@@ -77,6 +102,8 @@ pub enum Conclusion {
     Probability(f64),
     /// The samples were too few for an answer.
     Inconclusive,
+    /// The subject could not be run.
+    Unavailable,
     /// The claim says nothing about this subject.
     NotApplicable,
 }
@@ -111,7 +138,7 @@ fn detectable_share(n: f64) -> f64 {
 
 impl Trial {
     /// A trial that could not be held, and why.
-    fn without(conclusion: Conclusion, reason: impl Into<String>) -> Self {
+    pub(super) fn without(conclusion: Conclusion, reason: impl Into<String>) -> Self {
         Self {
             conclusion,
             statistic: None,

@@ -8,14 +8,14 @@
 
 use super::range::describe;
 use super::stability::{self, predicted};
-use super::{Attempt, Claim, Conclusion, Trial};
+use super::{Attempt, Claim, Conclusion, Promise, Trial};
 use crate::check::evidence::ComparedShare;
 use crate::check::sample::placement;
 use crate::check::tolerance::{FRAME_SHIFT, PLANE_HALF_SIDE, RASTER_RESOLUTION, RASTER_SAMPLES, REDRAW};
-use crate::check::{Evidence, Subject, Verdict};
+use crate::check::{Draw, Evidence, Subject, Verdict};
 use crate::scene::{Camera, Raster, Rectangle};
+use crate::stats::poisson_binomial;
 use crate::stats::seed::uniform01;
-use crate::stats::{poisson_binomial, seed};
 use crate::threshold::footprint::Footprint;
 use glam::{DVec2, DVec3, dvec2, dvec3};
 use rand::rngs::Xoshiro256PlusPlus;
@@ -28,7 +28,8 @@ pub const AXIS_ALIGNED: Claim = Claim {
     statement: "on planes of constant y or z = 0, 0.1, 0.3 every threshold is a number in (0, 1], and a shift of \
                 0.012 pixels redraws no more of them than the size of the cells predicts",
     expected: Verdict::Consistent,
-    run: |subject, seed| trial(&AXIS_ALIGNED, &[0.0, 0.1, 0.3], subject, seed),
+    promise: Some(Promise::Root(0.03)),
+    run: |subject, draw| trial(&AXIS_ALIGNED, &[0.0, 0.1, 0.3], subject, draw),
 };
 
 /// Planes at powers of two and whole numbers: faces of cells in every octave, for cells cut at whole numbers.
@@ -38,7 +39,8 @@ pub const DYADIC: Claim = Claim {
     statement: "on planes of constant y or z = 0.5, 1, 2, 3 every threshold is a number in (0, 1], and a shift of \
                 0.012 pixels redraws no more of them than the size of the cells predicts",
     expected: Verdict::Consistent,
-    run: |subject, seed| trial(&DYADIC, &[0.5, 1.0, 2.0, 3.0], subject, seed),
+    promise: Some(Promise::Root(0.03)),
+    run: |subject, draw| trial(&DYADIC, &[0.5, 1.0, 2.0, 3.0], subject, draw),
 };
 
 /// One pixel before and after the image moved by a fraction of it.
@@ -80,14 +82,14 @@ impl Counts {
     }
 }
 
-fn trial(claim: &Claim, offsets: &[f64], subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
-    let mut rng = seed::rng(claim.id, seed);
+fn trial(claim: &Claim, offsets: &[f64], subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
+    let mut rng = draw.rng(claim.id);
     let (mut points, mut seen, mut first_invalid) = (Vec::new(), Vec::new(), None);
     let (mut least_p, mut worst_z) = (1.0_f64, f64::NEG_INFINITY);
     let (mut n, mut invalid) = (0, 0);
     for (normal, name) in [(2, "z"), (1, "y")] {
         for &offset in offsets {
-            let counts = counts(subject, normal, offset, &mut rng);
+            let counts = counts(subject, normal, offset, draw.samples(RASTER_SAMPLES), &mut rng);
             seen.push(format!("{name} = {offset}: {}", counts.words()));
             n += counts.valid + counts.invalid;
             invalid += counts.invalid;
@@ -132,8 +134,14 @@ fn trial(claim: &Claim, offsets: &[f64], subject: &Subject<'_>, seed: u64) -> At
     })
 }
 
-fn counts(subject: &Subject<'_>, normal: usize, offset: f64, rng: &mut Xoshiro256PlusPlus) -> Counts {
-    let samples: Vec<Seen> = (0..RASTER_SAMPLES).map(|_| draw(normal, offset, rng)).collect();
+fn counts(
+    subject: &Subject<'_>,
+    normal: usize,
+    offset: f64,
+    n: usize,
+    rng: &mut Xoshiro256PlusPlus,
+) -> Counts {
+    let samples: Vec<Seen> = (0..n).map(|_| seen(normal, offset, rng)).collect();
     let thresholds =
         |of: fn(&Seen) -> Footprint<f64>| subject.thresholds(&samples.iter().map(of).collect::<Vec<_>>());
     let (before, after) = (thresholds(|seen| seen.before), thresholds(|seen| seen.after));
@@ -156,7 +164,7 @@ fn counts(subject: &Subject<'_>, normal: usize, offset: f64, rng: &mut Xoshiro25
 }
 
 /// Draws cameras until one sees the plane, at a pixel that still sees it in the next frame.
-fn draw(normal: usize, offset: f64, rng: &mut Xoshiro256PlusPlus) -> Seen {
+fn seen(normal: usize, offset: f64, rng: &mut Xoshiro256PlusPlus) -> Seen {
     loop {
         if let Some(seen) = attempt(normal, offset, rng) {
             return seen;

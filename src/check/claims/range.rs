@@ -1,11 +1,10 @@
 //! The range of the threshold, on every surface, with derivatives as they are and as a GPU takes them.
 
-use super::{Attempt, Claim, Conclusion, Trial, detectable_share};
+use super::{Attempt, Claim, Conclusion, Promise, Trial, detectable_share};
 use crate::check::sample::{moved, placement};
 use crate::check::tolerance::RANGE_RESOLUTION;
-use crate::check::{Evidence, Subject, Verdict};
+use crate::check::{Draw, Evidence, Subject, Verdict};
 use crate::scene::Scene;
-use crate::stats::seed;
 use crate::threshold::footprint::Footprint;
 
 /// Every threshold is a number in (0, 1], so that alpha 0 never passes and alpha 1 always does.
@@ -14,11 +13,12 @@ pub const RANGE: Claim = Claim {
     anchor: "§5, Listings 1 and 2 (last line)",
     statement: "every threshold is a number in (0, 1], on every surface, with analytic and with quad derivatives",
     expected: Verdict::Consistent,
+    promise: Some(Promise::Linear(1.0e-5)),
     run: range,
 };
 
-fn range(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
-    let mut rng = seed::rng(RANGE.id, seed);
+fn range(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
+    let mut rng = draw.rng(RANGE.id);
     let (mut n, mut outside) = (0, 0);
     let mut seen = Vec::new();
     for scene in Scene::all() {

@@ -1,18 +1,17 @@
 //! How many thresholds a motion below one pixel changes, against the closed form.
 
 use super::uniform::reject_outsiders;
-use super::{Attempt, Claim, Conclusion, Trial};
+use super::{Attempt, Claim, Conclusion, Promise, Trial};
 use crate::check::evidence::ComparedShare;
 use crate::check::sample::{footprint, general_scenes, moved, placement};
 use crate::check::tolerance::{POWER, SHIFT_SAMPLES, SHIFTS, SINGLE_LEVEL};
-use crate::check::{Evidence, Subject, Verdict};
+use crate::check::{Draw, Evidence, Subject, Verdict};
 use crate::scene::Scene;
-use crate::stats::{poisson_binomial, power, seed};
+use crate::stats::{poisson_binomial, power};
 use crate::threshold::footprint::Footprint;
 use crate::threshold::robust::Join;
 use crate::threshold::stability::change_probability;
 use crate::threshold::two_scale::Variant;
-use rand::rngs::Xoshiro256PlusPlus;
 
 /// Share of thresholds that a translation along the screen changes.
 pub const TRANSLATE: Claim = Claim {
@@ -20,6 +19,7 @@ pub const TRANSLATE: Claim = Claim {
     anchor: "§5 (sub-pixel translations), §5.4.1; closed form not in the paper",
     statement: "a sub-pixel shift along screen x or y changes the share of thresholds that the size of the cells predicts",
     expected: Verdict::Consistent,
+    promise: Some(Promise::Root(0.05)),
     run: translate,
 };
 
@@ -29,19 +29,21 @@ pub const TRANSLATE_ALIGNED: Claim = Claim {
     anchor: "§5 (sub-pixel translations), §5.4.1; closed form not in the paper",
     statement: "a sub-pixel shift changes the predicted share on walls, floors and cards, which hold one coordinate constant",
     expected: Verdict::Consistent,
+    promise: Some(Promise::Root(0.05)),
     run: translate_aligned,
 };
 
-fn translate(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
-    translate_over(subject, general_scenes(), seed::rng(TRANSLATE.id, seed))
+fn translate(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
+    translate_over(subject, general_scenes(), draw, TRANSLATE.id)
 }
 
-fn translate_aligned(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
+fn translate_aligned(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     let aligned = Scene::all().into_iter().filter(|scene| !scene.general_position).collect();
-    translate_over(subject, aligned, seed::rng(TRANSLATE_ALIGNED.id, seed))
+    translate_over(subject, aligned, draw, TRANSLATE_ALIGNED.id)
 }
 
-fn translate_over(subject: &Subject<'_>, scenes: Vec<Scene>, mut rng: Xoshiro256PlusPlus) -> Attempt<Trial> {
+fn translate_over(subject: &Subject<'_>, scenes: Vec<Scene>, draw: &Draw, claim: &str) -> Attempt<Trial> {
+    let mut rng = draw.rng(claim);
     let mut points = Vec::new();
     let mut worst = (1.0, 0.0);
     let (mut effect, mut n) = (0.0_f64, 0_u64);
@@ -51,7 +53,7 @@ fn translate_over(subject: &Subject<'_>, scenes: Vec<Scene>, mut rng: Xoshiro256
             for shift in SHIFTS {
                 let (mut before, mut after) = (Vec::new(), Vec::new());
                 let (mut mean, mut variance) = (0.0, 0.0);
-                for _ in 0..SHIFT_SAMPLES {
+                for _ in 0..draw.samples(SHIFT_SAMPLES) {
                     // A fresh place for every sample: the closed form is about phases that are all equally likely.
                     let here = moved(&footprint(&scene, &mut rng), placement(&mut rng), subject.precision);
                     let motion = if along_x { here.dpdx } else { here.dpdy } * shift;

@@ -1,18 +1,18 @@
 //! The law of the threshold: uniform, whatever the weight and the surface, and only thanks to Eq. 2.
 
 use super::range::describe;
-use super::{Attempt, Claim, Conclusion, Trial};
+use super::{Attempt, Claim, Conclusion, Promise, Trial};
 use crate::check::evidence::NamedHistogram;
 use crate::check::sample::{general_scenes, independent};
 use crate::check::tolerance::{
     BINS, DRAWS_A_PLACE, LEAST_GROUP, LERP_GROUPS, MARGINAL_SAMPLES, PLANE_SAMPLES, PLANES, POWER,
     SINGLE_LEVEL,
 };
-use crate::check::{Evidence, Subject, Verdict};
+use crate::check::{Draw, Evidence, Subject, Verdict};
 use crate::scene::Scene;
 use crate::stats::chi_square::{self, ChiSquare};
 use crate::stats::histogram::Histogram;
-use crate::stats::{ecdf, power, seed};
+use crate::stats::{ecdf, power};
 use crate::threshold::footprint::Footprint;
 
 /// Pooled chi-square over surfaces in general position.
@@ -21,6 +21,7 @@ pub const MARGINAL: Claim = Claim {
     anchor: "§5, §5.4.2",
     statement: "thresholds on surfaces in general position, pooled, are uniform on [0, 1)",
     expected: Verdict::Consistent,
+    promise: Some(Promise::Linear(2.0e-3)),
     run: marginal,
 };
 
@@ -30,6 +31,7 @@ pub const COVERAGE: Claim = Claim {
     anchor: "§4 (expected visibility is alpha)",
     statement: "for every alpha, a fragment of that alpha is kept with probability alpha",
     expected: Verdict::Consistent,
+    promise: Some(Promise::Root(0.02)),
     run: coverage,
 };
 
@@ -39,6 +41,7 @@ pub const BY_LERP_FACTOR: Claim = Claim {
     anchor: "Eq. 2",
     statement: "thresholds are uniform at every lerp factor, on both sides of 1/2",
     expected: Verdict::Consistent,
+    promise: Some(Promise::Linear(0.04)),
     run: by_lerp_factor,
 };
 
@@ -48,6 +51,7 @@ pub const WITHOUT_CDF: Claim = Claim {
     anchor: "§5.4.2 (interpolating two uniform values)",
     statement: "the interpolated value would be uniform without Eq. 2 (negative control: must be rejected)",
     expected: Verdict::Rejected,
+    promise: Some(Promise::Linear(0.04)),
     run: without_cdf,
 };
 
@@ -57,17 +61,23 @@ pub const CONSTANT_Z: Claim = Claim {
     anchor: "§5.1 (hash3D), not in the paper",
     statement: "thresholds on each single plane of constant z are uniform",
     expected: Verdict::Consistent,
+    promise: Some(Promise::Linear(7.0e-3)),
     run: constant_z,
 };
+
+/// Samples of a marginal claim: enough that no group of lerp factors is left out.
+fn marginal_size(draw: &Draw) -> usize {
+    draw.samples(MARGINAL_SAMPLES).max(2 * LERP_GROUPS * LEAST_GROUP)
+}
 
 /// Samples of the marginal claims with their values, or the trial that ends the claim.
 fn marginal_samples(
     subject: &Subject<'_>,
     claim: &Claim,
-    seed: u64,
+    draw: &Draw,
 ) -> Attempt<(Vec<Footprint<f64>>, Vec<f64>)> {
-    let mut rng = seed::rng(claim.id, seed);
-    let samples = independent(subject, &general_scenes(), MARGINAL_SAMPLES, DRAWS_A_PLACE, &mut rng);
+    let mut rng = draw.rng(claim.id);
+    let samples = independent(subject, &general_scenes(), marginal_size(draw), DRAWS_A_PLACE, &mut rng);
     let values = subject.thresholds(&samples);
     reject_outsiders(&samples, &values)?;
     Ok((samples, values))
@@ -97,8 +107,8 @@ fn uniformity(histogram: &Histogram) -> Option<ChiSquare> {
     (histogram.total() >= LEAST_GROUP as u64).then(|| chi_square::uniform(histogram.counts()).ok()).flatten()
 }
 
-fn marginal(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
-    let (_, values) = marginal_samples(subject, &MARGINAL, seed)?;
+fn marginal(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
+    let (_, values) = marginal_samples(subject, &MARGINAL, draw)?;
     let pooled = histogram(values);
     let tests: Vec<_> = uniformity(&pooled).into_iter().collect();
     let evidence = Evidence::Histograms(vec![NamedHistogram {
@@ -108,8 +118,8 @@ fn marginal(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
     Ok(Trial::worst_of(&tests, pooled.total(), "the pooled thresholds are not uniform".into(), evidence))
 }
 
-fn coverage(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
-    let (_, mut values) = marginal_samples(subject, &COVERAGE, seed)?;
+fn coverage(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
+    let (_, mut values) = marginal_samples(subject, &COVERAGE, draw)?;
     let pooled = histogram(values.iter().copied());
     let n = values.len() as u64;
     Ok(match ecdf::kolmogorov_smirnov(&mut values) {
@@ -132,14 +142,14 @@ fn coverage(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
     })
 }
 
-fn by_lerp_factor(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
-    let (samples, values) = marginal_samples(subject, &BY_LERP_FACTOR, seed)?;
+fn by_lerp_factor(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
+    let (samples, values) = marginal_samples(subject, &BY_LERP_FACTOR, draw)?;
     Ok(uniformity_by_lerp_factor(subject, &samples, &values))
 }
 
-fn without_cdf(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
-    let mut rng = seed::rng(WITHOUT_CDF.id, seed);
-    let samples = independent(subject, &general_scenes(), MARGINAL_SAMPLES, DRAWS_A_PLACE, &mut rng);
+fn without_cdf(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
+    let mut rng = draw.rng(WITHOUT_CDF.id);
+    let samples = independent(subject, &general_scenes(), marginal_size(draw), DRAWS_A_PLACE, &mut rng);
     Ok(match subject.interpolated(&samples) {
         None => Trial::without(Conclusion::NotApplicable, "the subject does not tell its interpolated value"),
         Some(values) => uniformity_by_lerp_factor(subject, &samples, &values),
@@ -171,15 +181,15 @@ fn uniformity_by_lerp_factor(subject: &Subject<'_>, samples: &[Footprint<f64>], 
     Trial::worst_of(&tests, tests.iter().map(|test| test.n).sum(), seen, Evidence::Histograms(evidence))
 }
 
-fn constant_z(subject: &Subject<'_>, seed: u64) -> Attempt<Trial> {
-    let mut rng = seed::rng(CONSTANT_Z.id, seed);
+fn constant_z(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
+    let mut rng = draw.rng(CONSTANT_Z.id);
     let wall: Vec<Scene> = Scene::all().into_iter().filter(|scene| scene.name == "wall").collect();
     let mut tests: Vec<ChiSquare> = Vec::new();
     let mut evidence = Vec::new();
     let mut worst_bias = 0.0_f64;
     for _ in 0..PLANES {
         // One place for all of a plane's samples: each plane has one z.
-        let samples = independent(subject, &wall, PLANE_SAMPLES, usize::MAX, &mut rng);
+        let samples = independent(subject, &wall, draw.samples(PLANE_SAMPLES), usize::MAX, &mut rng);
         let values = subject.thresholds(&samples);
         reject_outsiders(&samples, &values)?;
         let counts = histogram(values);

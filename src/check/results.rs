@@ -1,0 +1,104 @@
+//! The answers of one run about one subject, as somebody's own test suite wants them.
+
+use super::{Outcome, Suite, Verdict};
+use core::fmt;
+
+/// What every claim said about a subject.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Results {
+    /// One outcome a claim, in the order of the claims.
+    pub outcomes: Vec<Outcome>,
+    /// What the subject is measured by.
+    pub suite: Suite,
+}
+
+impl Results {
+    /// Takes the outcomes of a run; under [`Suite::Paper`] what the paper's own listing fails is marked as known.
+    #[must_use]
+    pub fn new(mut outcomes: Vec<Outcome>, suite: Suite) -> Self {
+        if suite == Suite::Paper {
+            excuse_the_listings(&mut outcomes);
+        }
+        Self { outcomes, suite }
+    }
+
+    /// Returns the outcomes that speak against the subject.
+    pub fn news(&self) -> impl Iterator<Item = &Outcome> {
+        self.outcomes.iter().filter(|outcome| outcome.is_news())
+    }
+
+    /// Returns whether nothing speaks against the subject.
+    #[must_use]
+    pub fn is_consistent(&self) -> bool {
+        self.news().next().is_none()
+    }
+
+    /// Does nothing where [`Results::is_consistent`] holds.
+    ///
+    /// # Panics
+    ///
+    /// Otherwise, with a message that names every claim that speaks against the subject, and what was seen.
+    #[track_caller]
+    pub fn assert(&self) {
+        assert!(self.is_consistent(), "\n{self}");
+    }
+}
+
+/// Marks the rejections that the paper's own listings are known for.
+pub fn excuse_the_listings(outcomes: &mut [Outcome]) {
+    for outcome in outcomes.iter_mut().filter(|outcome| outcome.verdict == Verdict::Rejected) {
+        outcome.known = outcome.known.take().or_else(|| outcome.listing_fails.map(str::to_owned));
+    }
+}
+
+/// The claims that speak against the subject, or one line that says that none does.
+impl fmt::Display for Results {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Some(Outcome { subject, precision, seed, .. }) = self.outcomes.first() else {
+            return f.write_str("no claim was tried");
+        };
+        let (news, all) = (self.news().count(), self.outcomes.len());
+        let known = self.outcomes.iter().filter(|outcome| outcome.known.is_some()).count();
+        write!(f, "{subject} in {precision}, suite {}, seed {seed}: ", self.suite.name())?;
+        match news {
+            0 => write!(f, "nothing in {all} claims speaks against it")?,
+            1 => write!(f, "1 of {all} claims speaks against it")?,
+            _ => write!(f, "{news} of {all} claims speak against it")?,
+        }
+        if known > 0 {
+            write!(f, "; the paper's own listing fails {known} others too")?;
+        }
+        for outcome in self.news() {
+            write!(f, "\n\n{outcome}")?;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::outcome::tests::outcome;
+    use super::*;
+
+    fn results(suite: Suite) -> Results {
+        let failed_by_the_listing =
+            Outcome { listing_fails: Some("it divides by zero"), ..outcome("b", Verdict::Rejected) };
+        Results::new(vec![outcome("a", Verdict::Consistent), failed_by_the_listing], suite)
+    }
+
+    #[test]
+    fn what_the_listing_fails_is_no_news_to_the_suite_of_the_paper() {
+        results(Suite::Paper).assert();
+        assert!(!results(Suite::All).is_consistent());
+        let text = results(Suite::Paper).to_string();
+        let expected = "s in f32, suite paper, seed 0: nothing in 2 claims speaks against it; \
+                        the paper's own listing fails 1 others too";
+        assert_eq!(text, expected);
+    }
+
+    #[test]
+    #[should_panic(expected = "rejected: b (§5)")]
+    fn a_rejection_panics_with_its_name() {
+        results(Suite::All).assert();
+    }
+}
