@@ -4,6 +4,7 @@
 mod budget;
 
 use budget::{Budget, budget};
+use hashed_alpha::threshold::batch::Isa;
 use hashed_alpha::threshold::cdf::CdfForm;
 use hashed_alpha::threshold::emulated::{Arithmetic, Emulated, Half};
 use hashed_alpha::threshold::footprint::Footprint;
@@ -62,19 +63,86 @@ fn is_correctly_rounded(
     }
 }
 
+/// A function over slices, and the instruction set that it is compiled for.
+type OverSlices = fn(Isa, &[f32], &mut [f32]);
+
+/// Asserts that a function over slices gives the correctly rounded value at every `stride`-th argument of a range of
+/// bits, on every instruction set of the machine.
+///
+/// The sets take turns at the same arguments, so that each correct value is computed once.
+fn is_correctly_rounded_on_every_isa(
+    name: &str,
+    range: RangeInclusive<u32>,
+    stride: u32,
+    ours: OverSlices,
+    correct: fn(f32) -> f32,
+) {
+    const TASK: u64 = 1 << 14;
+    let (first, last) = (u64::from(*range.start()), u64::from(*range.end()));
+    let steps = (last - first) / u64::from(stride) + 1;
+    let isas: Vec<Isa> = Isa::available().collect();
+    let wrong = (0..steps.div_ceil(TASK)).into_par_iter().find_map_first(|task| {
+        let steps = task * TASK..steps.min((task + 1) * TASK);
+        let arguments: Vec<f32> =
+            steps.map(|step| f32::from_bits((first + step * u64::from(stride)) as u32)).collect();
+        let expected: Vec<f32> = arguments.iter().map(|&x| correct(x)).collect();
+        let mut values = vec![0.0; arguments.len()];
+        isas.iter().find_map(|&isa| {
+            ours(isa, &arguments, &mut values);
+            let differs = |i: &usize| {
+                values[*i].to_bits() != expected[*i].to_bits()
+                    && !(values[*i].is_nan() && expected[*i].is_nan())
+            };
+            let at = (0..values.len()).find(differs)?;
+            Some(format!("{name} on {isa} at {:e}: {:e}, not {:e}", arguments[at], values[at], expected[at]))
+        })
+    });
+    assert_eq!(wrong, None);
+}
+
+/// How many of the scalar values are looked at: the portable loop compiles the same body and runs over all of them.
+fn scalar_stride() -> u32 {
+    budget().pick(1009, 7, 1)
+}
+
 #[test]
 fn the_sine_is_correctly_rounded_up_to_its_domain() {
-    let stride = budget().pick(1009, 1, 1);
     let largest = SIN_F32_DOMAIN.to_bits();
     for sign in [0, MINUS] {
-        is_correctly_rounded("sin_f32", sign..=sign + largest, stride, sin_f32, core_math::sinf);
+        let range = sign..=sign + largest;
+        is_correctly_rounded("sin_f32", range.clone(), scalar_stride(), sin_f32, core_math::sinf);
+        is_correctly_rounded_on_every_isa("sin", range, budget().pick(1009, 1, 1), Isa::sin, core_math::sinf);
     }
 }
 
 #[test]
 fn the_logarithm_is_correctly_rounded_everywhere() {
-    is_correctly_rounded("log2_f32", 0..=INFINITY, budget().pick(1009, 1, 1), log2_f32, core_math::log2f);
-    is_correctly_rounded("log2_f32", MINUS..=MINUS + INFINITY, 9973, log2_f32, core_math::log2f);
+    let stride = budget().pick(1009, 1, 1);
+    is_correctly_rounded("log2_f32", 0..=INFINITY, scalar_stride(), log2_f32, core_math::log2f);
+    is_correctly_rounded_on_every_isa("log2", 0..=INFINITY, stride, Isa::log2, core_math::log2f);
+    let negative = MINUS..=MINUS + INFINITY;
+    is_correctly_rounded("log2_f32", negative.clone(), 9973, log2_f32, core_math::log2f);
+    is_correctly_rounded_on_every_isa("log2", negative, 9973, Isa::log2, core_math::log2f);
+}
+
+#[test]
+fn beyond_the_domain_the_sine_of_slices_is_the_scalar_one() {
+    let beyond = SIN_F32_DOMAIN.to_bits() + 1..=u32::MAX >> 1;
+    for sign in [0, MINUS] {
+        let range = sign + *beyond.start()..=sign + *beyond.end();
+        is_correctly_rounded_on_every_isa("sin", range, budget().pick(10_007, 1009, 101), Isa::sin, sin_f32);
+    }
+}
+
+#[test]
+#[should_panic(expected = "on portable at")]
+fn one_wrong_value_in_a_million_is_found() {
+    let wrong: OverSlices = |isa, x, out| {
+        isa.log2(x, out);
+        let at = x.iter().position(|x| x.to_bits() == 0x3f12_3456);
+        at.into_iter().for_each(|i| out[i] = f32::from_bits(out[i].to_bits() + 1));
+    };
+    is_correctly_rounded_on_every_isa("log2", 0x3f10_0000..=0x3f20_0000, 1, wrong, core_math::log2f);
 }
 
 #[test]

@@ -11,10 +11,12 @@
 //! | [`hashed`], [`stochastic`], [`fixed`] | where the threshold comes from: §5-6, §4, §1 |
 //! | [`robust`] | Listings 1 and 2 with every repair (not in the paper); [`normal`] serves its copula join |
 //! | [`fade_in`], [`stratify`], [`coverage`] | what follows the hash: §7.1, §7.2.3, §8 |
+//! | [`batch`] | the same thresholds by the thousand, in the vector instructions of the machine (not in the paper) |
 //! | [`stability`] | closed forms for how often a threshold changes under motion (not in the paper) |
 //!
 //! What never lives here: statistics, files, scenes, allocation per sample. Nothing in this wing imports another.
 
+pub mod batch;
 pub mod cdf;
 pub mod coverage;
 pub mod emulated;

@@ -223,6 +223,15 @@ pub const SIN_F32_DOMAIN: f32 = 16_777_216.0;
 /// Not in the paper: GLSL and WGSL leave the accuracy of `sin` at such arguments open.
 #[must_use]
 pub fn sin_f32(x: f32) -> f32 {
+    if x.abs() <= SIN_F32_DOMAIN { sin_in_domain::<false>(x) } else { libm::sin(f64::from(x)) as f32 }
+}
+
+/// [`sin_f32`] for |x| <= [`SIN_F32_DOMAIN`], without a branch; any number for other arguments.
+///
+/// `FUSED` lets a product enter a sum unrounded, where the machine has that as one instruction. The `f64` in between
+/// differs then, the `f32` does not: both ways are correctly rounded, by exhaustion.
+#[inline(always)]
+pub(super) fn sin_in_domain<const FUSED: bool>(x: f32) -> f32 {
     /// The leading 29 bits of 1/pi.
     const HALF_TURNS_HIGH: f64 = f64::from_bits(0x3fd4_5f30_6e00_0000);
     /// 1/pi less its leading 29 bits.
@@ -239,20 +248,15 @@ pub fn sin_f32(x: f32) -> f32 {
         f64::from_bits(0x3f3e_89bd_5885_1811),
         f64::from_bits(0xbef6_24e8_9f86_3665),
     ];
-    if x.abs() <= SIN_F32_DOMAIN && x != 0.0 {
-        let wide = f64::from(x);
-        let half_turns = wide * HALF_TURNS_HIGH;
-        let shifted = half_turns + TO_INTEGER;
-        let rest = (half_turns - (shifted - TO_INTEGER)) + wide * HALF_TURNS_LOW;
-        let squared = rest * rest;
-        let sine = rest * horner(squared, &SINE_OF_HALF_TURNS);
-        let sign = (shifted.to_bits() & 1) << 63;
-        f64::from_bits(sine.to_bits() ^ sign) as f32
-    } else if x == 0.0 {
-        x
-    } else {
-        libm::sin(f64::from(x)) as f32
-    }
+    let wide = f64::from(x);
+    let half_turns = wide * HALF_TURNS_HIGH;
+    let shifted = half_turns + TO_INTEGER;
+    let rest = multiply_add::<FUSED>(wide, HALF_TURNS_LOW, half_turns - (shifted - TO_INTEGER));
+    let sine = rest * horner::<FUSED, 8>(rest * rest, &SINE_OF_HALF_TURNS);
+    let odd = shifted.to_bits() << 63;
+    let sine = f64::from_bits(sine.to_bits() ^ odd) as f32;
+    // The reduction loses the sign of zero.
+    if x == 0.0 { x } else { sine }
 }
 
 /// Returns the logarithm of `x` to base two, correctly rounded for every `x`.
@@ -263,7 +267,14 @@ pub fn sin_f32(x: f32) -> f32 {
 /// Not in the paper: GLSL and WGSL allow 3 ULP here.
 #[must_use]
 pub fn log2_f32(x: f32) -> f32 {
-    const SQRT_HALF_BITS: u64 = 0x3fe6_a09e_667f_3bcd;
+    log2_everywhere::<false>(x)
+}
+
+/// [`log2_f32`] without a branch; `FUSED` as in [`sin_in_domain`].
+#[inline(always)]
+pub(super) fn log2_everywhere<const FUSED: bool>(x: f32) -> f32 {
+    /// The smallest `f32` above sqrt(1/2).
+    const SQRT_HALF_BITS: u32 = 0x3f35_04f4;
     const COEFFICIENTS: [f64; 9] = [
         f64::from_bits(0x4007_1547_652b_82fe),
         f64::from_bits(0x3fee_c709_dc3a_03fc),
@@ -275,19 +286,24 @@ pub fn log2_f32(x: f32) -> f32 {
         f64::from_bits(0x3fc8_7740_3989_7f75),
         f64::from_bits(0x3fc8_7d8e_bae9_9ae1),
     ];
-    if x > 0.0 && x < f32::INFINITY {
-        let bits = f64::from(x).to_bits();
-        let exponent = (bits.wrapping_sub(SQRT_HALF_BITS) as i64) >> 52;
-        let m = f64::from_bits(bits.wrapping_sub((exponent << 52) as u64));
-        let s = (m - 1.0) / (m + 1.0);
-        (exponent as f64 + s * horner(s * s, &COEFFICIENTS)) as f32
-    } else if x == 0.0 {
+    /// Brings a subnormal number into the normal range.
+    const LIFT: f32 = 16_777_216.0;
+    let subnormal = x < f32::MIN_POSITIVE;
+    let bits = if subnormal { x * LIFT } else { x }.to_bits();
+    let exponent = (bits.wrapping_sub(SQRT_HALF_BITS) as i32) >> 23;
+    let m = f64::from(f32::from_bits(bits.wrapping_sub((exponent << 23) as u32)));
+    let exponent = if subnormal { exponent - 24 } else { exponent };
+    let s = (m - 1.0) / (m + 1.0);
+    let log = multiply_add::<FUSED>(s, horner::<FUSED, 9>(s * s, &COEFFICIENTS), f64::from(exponent)) as f32;
+    let finite = x > 0.0 && x < f32::INFINITY;
+    let special = if x == 0.0 {
         f32::NEG_INFINITY
     } else if x > 0.0 {
         x
     } else {
         f32::NAN
-    }
+    };
+    if finite { log } else { special }
 }
 
 /// Returns two to the power of `x`, correctly rounded for every `x`; 0 below and infinity above the range of `f32`.
@@ -304,9 +320,19 @@ pub fn exp2_f32(x: f32) -> f32 {
     }
 }
 
-/// Evaluates `c0 + x (c1 + x (c2 + ...))` without contraction.
-fn horner(x: f64, coefficients: &[f64]) -> f64 {
-    coefficients.iter().rev().fold(0.0, |sum, &c| sum * x + c)
+/// Evaluates `c0 + x (c1 + x (c2 + ...))`; `FUSED` as in [`sin_in_domain`].
+#[inline(always)]
+fn horner<const FUSED: bool, const N: usize>(x: f64, coefficients: &[f64; N]) -> f64 {
+    let mut sum = coefficients[N - 1];
+    for &coefficient in coefficients[..N - 1].iter().rev() {
+        sum = multiply_add::<FUSED>(sum, x, coefficient);
+    }
+    sum
+}
+
+#[inline(always)]
+fn multiply_add<const FUSED: bool>(a: f64, b: f64, c: f64) -> f64 {
+    if FUSED { a.mul_add(b, c) } else { a * b + c }
 }
 
 #[cfg(test)]
