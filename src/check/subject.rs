@@ -152,6 +152,16 @@ impl<'a> Subject<'a> {
         Self::evaluated_by(name.into(), precision, variant, evaluation)
     }
 
+    /// Adds what the subject has before Eq. 2, so that claims can look at both.
+    #[must_use]
+    pub fn with_interpolated<T: Into<Option<f64>>>(
+        self,
+        interpolated: impl Fn(&Footprint<f64>) -> T + Send + Sync + 'a,
+    ) -> Self {
+        let interpolated = move |fragment: &Fragment| interpolated(&fragment.footprint).into();
+        Self { interpolated: Some(Box::new(interpolated)), ..self }
+    }
+
     /// Puts a function of many fragments on trial, as [`Subject::new`] does: one threshold a fragment, NaN where it refuses
     /// one.
     ///

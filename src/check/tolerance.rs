@@ -186,3 +186,39 @@ pub const END: f64 = 1.0 / 1024.0;
 
 /// Layers of the block of cells in which the ends are counted: 256 expected at each end.
 pub const END_LAYERS: u32 = ATOM_BLOCK[2] / 4;
+
+/// Pairs of a point before and after a motion: about half stay in their cells.
+pub const CELL_PAIRS: usize = 1 << 16;
+
+/// The largest motion along an axis, in sides of the fine cell: three in five points stay in a cell of three axes.
+pub const CELL_MOTION: f64 = 0.3;
+
+/// Weights at which the change of either cell shows in the last bits of an `f32`.
+pub const CELL_WEIGHTS: core::ops::RangeInclusive<f64> = 0.01..=0.99;
+
+/// Share of pairs of cells whose thresholds may be equal: twice that of the `f32` sine hash, which is a defect of its own
+/// (`hash.values`).
+pub const MEETING: f64 = 1.0 / 2048.0;
+
+/// Samples of which Eq. 2 is computed again.
+pub const FORMULA_SAMPLES: usize = 1 << 16;
+
+/// How far a threshold may be from Eq. 2, in `f32` and `f64`: the clamp at 1e-6, and a dozen roundings of a number below
+/// 1 for the logarithm, the weight and the formula.
+pub const CDF_ROUNDING: [f64; 2] = [1.0 / 524_288.0, 1.0e-6];
+
+/// Pairs of neighbours whose difference is taken, along each of four directions: 1024 expected in every bin.
+pub const DIFFERENCE_PAIRS: usize = 1 << 16;
+
+/// Cells whose thresholds are compared with each other: 512 pairs meet at [`MEETING_VALUES`].
+pub const VALUE_CELLS: usize = 1 << 16;
+
+/// Share of pairs of cells that may have one threshold: four times that of a lattice of 2^24 values.
+pub const MEETING_VALUES: f64 = 1.0 / 4_194_304.0;
+
+/// Cells in x and y between which both phases of the sine hash, 17 x + 0.1 y and 13 y + x, advance by all but a whole
+/// number of half turns; its two-dimensional form has correlations up to 0.2 there.
+pub const RESONANCES: [[i32; 2]; 5] = [[355, 0], [710, 0], [3726, -232], [3460, -785], [2750, -785]];
+
+/// Pairs of cells at each resonance: shows a correlation of 0.03.
+pub const RESONANCE_PAIRS: usize = 1 << 16;

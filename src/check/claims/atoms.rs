@@ -73,7 +73,7 @@ fn zero(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
         n,
         effect: Some(times),
         effect_name: "times as often as expected",
-        detectable: Some(detectable(mean)),
+        detectable: Some(detectable_factor(mean)),
         seen: format!(
             "{low} of {n} thresholds are up to {ATOM_THRESHOLD:e}, {times:.0} times as many as expected"
         ),
@@ -110,7 +110,7 @@ fn ends(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
 }
 
 /// The smallest excess of a Poisson count of this mean that would be seen, as a factor.
-fn detectable(mean: f64) -> f64 {
+pub(super) fn detectable_factor(mean: f64) -> f64 {
     let critical =
         (0..).find(|&count| binomial::poisson_upper_p(count, mean) < SINGLE_LEVEL).unwrap_or(u64::MAX);
     let unseen = |factor: f64| binomial::poisson_lower_p(critical - 1, factor * mean);

@@ -4,6 +4,8 @@ pub mod atoms;
 pub mod cells;
 pub mod continuity;
 pub mod degenerate;
+pub mod exact;
+pub mod hash;
 pub mod independence;
 pub mod layers;
 pub mod planes;
@@ -62,6 +64,8 @@ pub const ALL: &[Claim] = &[
     range::RANGE,
     degenerate::DEGENERATE,
     degenerate::FAR_FROM_ORIGIN,
+    exact::CELLS,
+    exact::CDF,
     uniform::MARGINAL,
     uniform::COVERAGE,
     uniform::BY_LERP_FACTOR,
@@ -71,6 +75,10 @@ pub const ALL: &[Claim] = &[
     independence::DIAGONALS,
     independence::ACROSS_ZERO,
     independence::OCTAVES,
+    hash::CHILDREN,
+    hash::DIFFERENCES,
+    hash::VALUES,
+    hash::RESONANCE,
     layers::PARALLEL,
     stability::TRANSLATE,
     stability::TRANSLATE_ALIGNED,

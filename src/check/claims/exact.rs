@@ -1,0 +1,147 @@
+//! What follows from the listings without any chance: where the threshold changes, and by which formula.
+
+use super::{Attempt, Claim, Conclusion, Promise, Trial, detectable_share};
+use crate::check::sample::{footprint, general_scenes, independent, moved, placement};
+use crate::check::tolerance::{
+    CDF_ROUNDING, CELL_MOTION, CELL_PAIRS, CELL_WEIGHTS, DRAWS_A_PLACE, FORMULA_SAMPLES, MEETING,
+};
+use crate::check::{Draw, Evidence, Subject, Verdict, subject::Precision};
+use crate::stats::binomial;
+use crate::stats::seed::uniform01;
+use crate::threshold::cdf::cdf;
+use crate::threshold::footprint::Footprint;
+use crate::threshold::robust::Join;
+use glam::{DVec3, dvec3};
+use rand::rngs::Xoshiro256PlusPlus;
+
+/// The threshold changes exactly where the position enters another cell.
+pub const CELLS: Claim = Claim {
+    id: "exact.cells",
+    anchor: "§5, Listings 1 and 2 (floor of the scaled position)",
+    statement: "while a point moves within its cells, no bit of its threshold changes; where it enters another cell, the \
+                threshold is another one",
+    expected: Verdict::Consistent,
+    promise: Some(Promise::Linear(2.0e-3)),
+    run: cells,
+};
+
+/// The threshold is Eq. 2 of the interpolated value.
+pub const CDF: Claim = Claim {
+    id: "exact.cdf",
+    anchor: "§5.4.2, Eq. 2",
+    statement: "the threshold is Eq. 2 of the interpolated value and the lerp factor, to the last roundings",
+    expected: Verdict::Consistent,
+    promise: Some(Promise::Linear(2.0e-3)),
+    run: formula,
+};
+
+/// A point before and after it moved by less than a cell, with its derivatives as they were.
+fn pair(subject: &Subject<'_>, found: &Footprint<f64>, rng: &mut Xoshiro256PlusPlus) -> [Footprint<f64>; 2] {
+    let first = moved(found, placement(rng), subject.precision);
+    let side = DVec3::ONE / DVec3::from_array(subject.nominal(&first).fine_scale);
+    let mut part = || (2.0 * uniform01(rng) - 1.0) * CELL_MOTION;
+    let motion = dvec3(part(), part(), part()) * side;
+    [first, moved(&first, motion, subject.precision)]
+}
+
+fn cells(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
+    let mut rng = draw.rng(CELLS.id);
+    let scenes = general_scenes();
+    let mut pairs = Vec::new();
+    for index in 0..draw.samples(CELL_PAIRS) {
+        let found = footprint(&scenes[index % scenes.len()], &mut rng);
+        let pair = pair(subject, &found, &mut rng);
+        // Where one octave has all but no weight, its changes drown in rounding.
+        if pair.iter().all(|at| CELL_WEIGHTS.contains(&subject.nominal(at).lerp_factor)) {
+            pairs.extend(pair);
+        }
+    }
+    let thresholds = subject.thresholds(&pairs);
+    let (mut within, mut changed, mut across, mut kept) = (0_u64, 0_u64, 0_u64, 0_u64);
+    let mut first = None;
+    for (pair, value) in pairs.chunks_exact(2).zip(thresholds.chunks_exact(2)) {
+        let cells = [&pair[0], &pair[1]].map(|at| subject.nominal(at));
+        let same = value[0].to_bits() == value[1].to_bits();
+        if cells[0].fine_cell == cells[1].fine_cell {
+            within += 1;
+            changed += u64::from(!same);
+            if !same {
+                first.get_or_insert_with(|| {
+                    format!("from {} to {} at {}", value[0], value[1], pair[0].position)
+                });
+            }
+        } else if subject.join != Join::Dithered || cells[0].coarse_cell != cells[1].coarse_cell {
+            // The dithered join reads one of the two cells; both have changed where the coarse one has.
+            across += 1;
+            kept += u64::from(same);
+        }
+    }
+    if within == 0 || across == 0 {
+        return Ok(Trial::without(
+            Conclusion::Inconclusive,
+            "no point moved within its cells and across them",
+        ));
+    }
+    let conclusion = if changed > 0 {
+        Conclusion::Exact { holds: false }
+    } else {
+        Conclusion::Probability(binomial::poisson_upper_p(kept, across as f64 * MEETING))
+    };
+    let [changed_share, kept_share] = [changed as f64 / within as f64, kept as f64 / across as f64];
+    let first = first.map_or(String::new(), |first| format!(", first {first}"));
+    Ok(Trial {
+        conclusion,
+        statistic: Some((changed + kept) as f64),
+        statistic_name: "thresholds that changed within a cell or were kept across".into(),
+        n: within + across,
+        effect: Some(changed_share.max(kept_share)),
+        effect_name: "share of points that moved",
+        detectable: Some(detectable_share(within.min(across) as f64)),
+        seen: format!(
+            "{:.2} % of thresholds change while the point stays in its cells{first}; {:.2} % are kept where it enters another",
+            100.0 * changed_share,
+            100.0 * kept_share
+        ),
+        evidence: Evidence::None,
+    })
+}
+
+fn formula(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
+    let mut rng = draw.rng(CDF.id);
+    let n = draw.samples(FORMULA_SAMPLES);
+    let samples = independent(subject, &general_scenes(), n, DRAWS_A_PLACE, &mut rng);
+    let Some(interpolated) = subject.interpolated(&samples) else {
+        let reason = "the subject does not tell its interpolated value";
+        return Ok(Trial::without(Conclusion::NotApplicable, reason));
+    };
+    let thresholds = subject.thresholds(&samples);
+    let allowed = CDF_ROUNDING[usize::from(subject.precision == Precision::F64)];
+    let (mut outside, mut largest, mut first) = (0_u64, 0.0_f64, None);
+    for ((sample, &value), &x) in samples.iter().zip(&thresholds).zip(&interpolated) {
+        let lerp_factor = subject.nominal(sample).lerp_factor;
+        let expected = cdf(x, lerp_factor);
+        let error = (value - expected).abs();
+        if error > allowed || error.is_nan() {
+            outside += 1;
+            first.get_or_insert_with(|| {
+                format!("; first {value} for {expected}, of {x} at a lerp factor of {lerp_factor}")
+            });
+        }
+        largest = largest.max(error);
+    }
+    let n = samples.len() as u64;
+    Ok(Trial {
+        conclusion: Conclusion::Exact { holds: outside == 0 },
+        statistic: Some(largest),
+        statistic_name: "largest distance from Eq. 2".into(),
+        n,
+        effect: Some(outside as f64 / n as f64),
+        effect_name: "share of thresholds that are not Eq. 2",
+        detectable: Some(detectable_share(n as f64)),
+        seen: format!(
+            "{outside} of {n} thresholds are not Eq. 2, by up to {largest:.4}{}",
+            first.unwrap_or_default()
+        ),
+        evidence: Evidence::None,
+    })
+}

@@ -1,0 +1,192 @@
+//! The hash of single cells, seen through thresholds at whole octaves, where the other octave has no weight.
+
+use super::atoms::detectable_factor;
+use super::cells::{at_scale, draw_cell};
+use super::uniform::reject_outsiders;
+use super::{Attempt, Claim, Conclusion, Promise, Trial};
+use crate::check::evidence::NamedHistogram;
+use crate::check::sample::UsedCells;
+use crate::check::tolerance::{
+    BINS, DIFFERENCE_PAIRS, DRAWS_A_SAMPLE, FAR_PAIRS, MEETING_VALUES, PAIR_BINS, POWER, RESONANCE_PAIRS,
+    RESONANCES, SINGLE_LEVEL, VALUE_CELLS,
+};
+use crate::check::{Draw, Evidence, Subject, Verdict};
+use crate::stats::histogram::Histogram;
+use crate::stats::{binomial, chi_square, correlation, power};
+use crate::threshold::footprint::Footprint;
+use glam::{DVec3, dvec3};
+use rand::rngs::Xoshiro256PlusPlus;
+
+/// A cell and the eight cells of the next octave that lie in it.
+pub const CHILDREN: Claim = Claim {
+    id: "hash.children",
+    anchor: "§5.4.2 (two scales an octave apart); not in the paper",
+    statement: "the threshold of a cell and that of each of the eight cells in it, one octave down, are independent",
+    expected: Verdict::Consistent,
+    promise: Some(Promise::Linear(0.02)),
+    run: children,
+};
+
+/// Differences of neighbouring thresholds.
+pub const DIFFERENCES: Claim = Claim {
+    id: "hash.differences",
+    anchor: "§5.1 (hash outputs replace uniform random numbers); not in the paper",
+    statement: "from a cell to its neighbour the threshold moves, around the unit interval, by any amount alike",
+    expected: Verdict::Consistent,
+    promise: Some(Promise::Linear(0.015)),
+    run: differences,
+};
+
+/// The number of different values.
+pub const VALUES: Claim = Claim {
+    id: "hash.values",
+    anchor: "§5.1; not in the paper",
+    statement: "two cells have the same threshold no more often than among four million values",
+    expected: Verdict::Consistent,
+    promise: Some(Promise::Root(1.0e-6)),
+    run: values,
+};
+
+/// Cells at the distances at which the sine hash resonates.
+pub const RESONANCE: Claim = Claim {
+    id: "hash.resonance",
+    anchor: "§5.1 (sin(17 x + 0.1 y), sin(13 y + x)); not in the paper",
+    statement: "thresholds of cells whose distance is all but a whole number of half periods of both sines are uncorrelated",
+    expected: Verdict::Consistent,
+    promise: Some(Promise::Root(0.1)),
+    run: resonance,
+};
+
+/// The footprint in a cell of octave `octave` where that octave has all weight.
+fn in_cell(subject: &Subject<'_>, cell: DVec3, octave: i32) -> Footprint<f64> {
+    let side = libm::exp2(f64::from(-octave));
+    let position = (cell + 0.25) * side;
+    let scale = [f64::from(octave); 3];
+    subject.precision.round(&at_scale(subject.variant, subject.hash_scale, position, scale))
+}
+
+/// Draws `n` groups of footprints out of a cell each, no two groups touching the same cell, and evaluates them.
+fn groups<const N: usize>(
+    subject: &Subject<'_>,
+    n: usize,
+    rng: &mut Xoshiro256PlusPlus,
+    group: impl Fn(DVec3) -> [Footprint<f64>; N],
+) -> Attempt<Vec<f64>> {
+    let mut used = UsedCells::default();
+    let mut samples = Vec::with_capacity(N * n);
+    for _ in 0..n.saturating_mul(DRAWS_A_SAMPLE) {
+        if samples.len() == N * n {
+            break;
+        }
+        let group = group(draw_cell(rng));
+        if used.claim(subject, &group) {
+            samples.extend(group);
+        }
+    }
+    let values = subject.thresholds(&samples);
+    reject_outsiders(&samples, &values)?;
+    Ok(values)
+}
+
+fn children(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
+    let mut rng = draw.rng(CHILDREN.id);
+    let mut tests = Vec::new();
+    let mut pooled = vec![0; PAIR_BINS * PAIR_BINS];
+    for child in 0..8_u32 {
+        let within = DVec3::from_array([1, 2, 4].map(|bit| f64::from(u32::from(child & bit != 0))));
+        let values = groups(subject, draw.samples_at_least(FAR_PAIRS), &mut rng, |cell| {
+            [in_cell(subject, cell, 0), in_cell(subject, 2.0 * cell + within, 1)]
+        })?;
+        let table = correlation::pair_table(values.chunks_exact(2).map(|pair| (pair[0], pair[1])), PAIR_BINS);
+        pooled.iter_mut().zip(&table).for_each(|(sum, count)| *sum += count);
+        tests.extend(chi_square::independence(&table, PAIR_BINS));
+    }
+    let n = pooled.iter().sum();
+    let seen = "the threshold of a cell tells that of a cell in it".into();
+    Ok(Trial::worst_of(&tests, n, seen, Evidence::Pairs { side: PAIR_BINS, counts: pooled }))
+}
+
+fn differences(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
+    let mut rng = draw.rng(DIFFERENCES.id);
+    let mut tests = Vec::new();
+    let mut evidence = Vec::new();
+    for (name, step) in [("x", DVec3::X), ("y", DVec3::Y), ("z", DVec3::Z), ("the diagonal", DVec3::ONE)] {
+        let values = groups(subject, draw.samples(DIFFERENCE_PAIRS), &mut rng, |cell| {
+            [in_cell(subject, cell, 0), in_cell(subject, cell + step, 0)]
+        })?;
+        let mut counts = Histogram::new(BINS);
+        counts.extend(values.chunks_exact(2).map(|pair| {
+            let difference = pair[1] - pair[0];
+            difference - difference.floor()
+        }));
+        tests.extend(chi_square::uniform(counts.counts()));
+        evidence.push(NamedHistogram { name: format!("along {name}"), counts: counts.counts().to_vec() });
+    }
+    let n = tests.iter().map(|test| test.n).sum();
+    let seen = "some steps between neighbouring thresholds come up more often than others".into();
+    Ok(Trial::worst_of(&tests, n, seen, Evidence::Histograms(evidence)))
+}
+
+fn values(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
+    let mut rng = draw.rng(VALUES.id);
+    let mut bits: Vec<u64> =
+        groups(subject, draw.samples(VALUE_CELLS), &mut rng, |cell| [in_cell(subject, cell, 0)])?
+            .into_iter()
+            .map(f64::to_bits)
+            .collect();
+    bits.sort_unstable();
+    let n = bits.len() as u64;
+    let runs = bits.chunk_by(|a, b| a == b).map(|run| run.len() as u64);
+    let (distinct, meetings) = runs.fold((0, 0), |(d, m), run| (d + 1, m + run * (run - 1) / 2));
+    let pairs = n as f64 * (n as f64 - 1.0) / 2.0;
+    let expected = pairs * MEETING_VALUES;
+    let share = meetings as f64 / pairs;
+    Ok(Trial {
+        conclusion: Conclusion::Probability(binomial::poisson_upper_p(meetings, expected)),
+        statistic: Some(meetings as f64),
+        statistic_name: format!("pairs of cells with one threshold, {expected:.1} expected at most"),
+        n,
+        effect: Some(share),
+        effect_name: "share of pairs of cells with one threshold",
+        detectable: Some(detectable_factor(expected) * MEETING_VALUES),
+        seen: format!(
+            "{n} cells have {distinct} different thresholds, as if drawn from {:.0} values",
+            1.0 / share
+        ),
+        evidence: Evidence::None,
+    })
+}
+
+fn resonance(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
+    let mut rng = draw.rng(RESONANCE.id);
+    let mut worst: Option<(correlation::Correlation, [i32; 2])> = None;
+    for lag in RESONANCES {
+        let step = dvec3(f64::from(lag[0]), f64::from(lag[1]), 0.0);
+        let values = groups(subject, draw.samples(RESONANCE_PAIRS), &mut rng, |cell| {
+            [in_cell(subject, cell, 0), in_cell(subject, cell + step, 0)]
+        })?;
+        let column = |which: usize| values.iter().skip(which).step_by(2).copied().collect::<Vec<f64>>();
+        let Ok(found) = correlation::pearson(&column(0), &column(1)) else {
+            return Ok(Trial::without(Conclusion::Exact { holds: false }, "the threshold is a constant"));
+        };
+        if worst.as_ref().is_none_or(|(least, _)| found.p < least.p) {
+            worst = Some((found, lag));
+        }
+    }
+    let Some((found, [x, y])) = worst else {
+        return Ok(Trial::without(Conclusion::Inconclusive, "no distance was tried"));
+    };
+    let tests = RESONANCES.len() as f64;
+    let sigma = 1.0 / (found.n as f64 - 1.0).sqrt();
+    Ok(Trial {
+        conclusion: Conclusion::Probability((tests * found.p).min(1.0)),
+        statistic: Some(found.z),
+        statistic_name: format!("z of the correlation, worst of {tests}"),
+        n: found.n,
+        effect: Some(found.r.abs()),
+        effect_name: "correlation",
+        detectable: Some(power::detectable_shift_z(sigma, SINGLE_LEVEL / tests, POWER)),
+        seen: format!("thresholds of cells that are ({x}, {y}) apart have a correlation of {:+.4}", found.r),
+        evidence: Evidence::None,
+    })
+}
