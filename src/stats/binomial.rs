@@ -141,20 +141,25 @@ pub(super) fn binomial_pmf(k: u64, n: u64, q: f64) -> f64 {
     if q == 0.0 || q == 1.0 {
         return if k == (if q == 0.0 { 0 } else { n }) { 1.0 } else { 0.0 };
     }
-    let (misses, trials) = ((n - k) as f64, n as f64);
     if k == 0 {
-        return libm::exp(trials * libm::log1p(-q));
+        return libm::exp(n as f64 * libm::log1p(-q));
     }
     if k == n {
-        return libm::exp(trials * libm::log(q));
+        return libm::exp(n as f64 * libm::log(q));
     }
-    let k = k as f64;
+    binomial_density(k as f64, (n - k) as f64, q, 1.0 - q)
+}
+
+/// The same for hits and misses above 0 that need not be whole: q^hits r^misses / ((hits + misses + 1) B(hits +
+/// 1, misses + 1)), with r = 1 - q.
+pub(super) fn binomial_density(hits: f64, misses: f64, q: f64, r: f64) -> f64 {
+    let trials = hits + misses;
     let log = stirling_error(trials)
-        - stirling_error(k)
+        - stirling_error(hits)
         - stirling_error(misses)
-        - deviance(k, trials * q)
-        - deviance(misses, trials * (1.0 - q));
-    libm::exp(log) * (trials / (2.0 * PI * k * misses)).sqrt()
+        - deviance(hits, trials * q)
+        - deviance(misses, trials * r);
+    libm::exp(log) * (trials / (2.0 * PI * hits * misses)).sqrt()
 }
 
 /// P(X = k) for X Poisson; the same source.
@@ -169,7 +174,7 @@ pub(super) fn poisson_pmf(k: u64, mean: f64) -> f64 {
     libm::exp(-stirling_error(k) - deviance(k, mean)) / (2.0 * PI * k).sqrt()
 }
 
-/// ln(x!) minus Stirling's formula, for x >= 1.
+/// ln(x!) minus Stirling's formula, for x above 0.
 fn stirling_error(x: f64) -> f64 {
     if x < 16.0 {
         return libm::lgamma(x + 1.0) - (x + 0.5) * libm::log(x) + x - 0.5 * libm::log(2.0 * PI);

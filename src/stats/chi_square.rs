@@ -4,7 +4,7 @@
 //! one sample a cell, or divide the statistic by the design effect and build the result with
 //! [`ChiSquare::new`].
 
-use super::StatsError;
+use super::{StatsError, Tails};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 /// Smallest expected count of a bin; the chi-square law is an approximation that needs it.
@@ -52,7 +52,13 @@ impl ChiSquare {
     /// Tiny values mean counts that are too even to be random, as stratified samples are.
     #[must_use]
     pub fn lower_p(&self) -> f64 {
-        if self.statistic.is_infinite() { 1.0 } else { law(self.dof).cdf(self.statistic) }
+        lower_p(self.statistic, self.dof)
+    }
+
+    /// Gives both tails, whose [`two_sided_p`](Tails::two_sided_p) rejects uneven counts and too even ones.
+    #[must_use]
+    pub fn tails(&self) -> Tails {
+        Tails { lower: self.lower_p(), upper: self.p }
     }
 }
 
@@ -187,6 +193,16 @@ fn observations(counts: &[u64]) -> Result<u64, StatsError> {
 /// Upper tail of the chi-square law at `statistic` >= 0.
 pub(super) fn upper_p(statistic: f64, dof: u64) -> f64 {
     if statistic.is_infinite() { 0.0 } else { law(dof).sf(statistic) }
+}
+
+/// Lower tail of the chi-square law at `statistic` >= 0.
+fn lower_p(statistic: f64, dof: u64) -> f64 {
+    if statistic.is_infinite() { 1.0 } else { law(dof).cdf(statistic) }
+}
+
+/// Both tails of the chi-square law at `statistic` >= 0.
+pub(super) fn tails(statistic: f64, dof: u64) -> Tails {
+    Tails { lower: lower_p(statistic, dof), upper: upper_p(statistic, dof) }
 }
 
 fn law(dof: u64) -> ChiSquared {

@@ -163,7 +163,7 @@ fn bulk_expansion(d: f64, n: u64) -> f64 {
 }
 
 /// P(sqrt(n) D >= z) in the limit of large n.
-fn limit_law(z: f64) -> f64 {
+pub(super) fn limit_law(z: f64) -> f64 {
     if z < 0.04 {
         return 1.0; // The complement is below 1e-300.
     }

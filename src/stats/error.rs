@@ -27,6 +27,12 @@ pub enum StatsError {
         /// The offending value.
         value: f64,
     },
+    /// A value that has to be finite is NaN or infinite.
+    #[error("{value} is not finite")]
+    NotFinite {
+        /// The offending value.
+        value: f64,
+    },
     /// Expected probabilities do not add up to one within 1e-9.
     #[error("the expected probabilities add up to {sum}, not to 1")]
     NotNormalized {

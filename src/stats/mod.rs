@@ -12,10 +12,14 @@
 //! | [`chi_square`] | do counts follow given probabilities, each other, or a product law? |
 //! | [`ecdf`] | how far is a sample from uniform (Kolmogorov-Smirnov, and a bound for every size)? |
 //! | [`anderson_darling`] | the same, with the weight on the ends of the interval |
+//! | [`two_sample`] | how far are two samples from each other? |
 //! | [`normal`] | tails and quantile of the normal law |
+//! | [`beta`] | tails of Student's t and Fisher's F |
+//! | [`variance`] | is a variance what it should be? are two of them equal? |
 //! | [`binomial`] | exact tails of binomial and Poisson counts, and the Clopper-Pearson interval |
 //! | [`poisson_binomial`] | does a count of unequal but independent events match their probabilities? |
 //! | [`correlation`] | are two sequences related? |
+//! | [`tails`] | both tails of a statistic, and their common p-value |
 //! | [`multiplicity`] | what is a p-value worth among many? |
 //! | [`sequential`] | the same, when what is suspect may be asked again on fresh data |
 //! | [`power`] | what is the smallest defect that a test can see? |
@@ -25,6 +29,7 @@
 //! and tolerances; files, text output and serialization; estimates without a stated law.
 
 pub mod anderson_darling;
+pub mod beta;
 pub mod binomial;
 pub mod chi_square;
 pub mod correlation;
@@ -37,8 +42,12 @@ pub mod poisson_binomial;
 pub mod power;
 pub mod seed;
 pub mod sequential;
+pub mod tails;
+pub mod two_sample;
+pub mod variance;
 
 #[cfg(test)]
 mod calibration;
 
 pub use error::StatsError;
+pub use tails::Tails;
