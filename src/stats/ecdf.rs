@@ -56,6 +56,17 @@ pub fn kolmogorov_smirnov(values: &mut [f64]) -> Result<KolmogorovSmirnov, Stats
     Ok(KolmogorovSmirnov { d, n, p: upper_p(d, n), dkwm })
 }
 
+/// Measures how far values are from the exponential law of mean 1. Replaces them by their uniform images, 1 -
+/// exp(-x), sorted.
+///
+/// # Errors
+/// [`StatsError::Empty`] without values, [`StatsError::NotAProbability`] with the image of one that is NaN or
+/// negative.
+pub fn kolmogorov_smirnov_exponential(values: &mut [f64]) -> Result<KolmogorovSmirnov, StatsError> {
+    values.iter_mut().for_each(|x| *x = -libm::expm1(-*x));
+    kolmogorov_smirnov(values)
+}
+
 /// Gives the distance that `n` uniform values exceed with probability at most `alpha`: sqrt(ln(2/alpha) /
 /// (2n)).
 ///

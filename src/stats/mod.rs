@@ -17,9 +17,13 @@
 //! | [`beta`] | tails of Student's t and Fisher's F |
 //! | [`variance`] | is a variance what it should be? are two of them equal? |
 //! | [`binomial`] | exact tails of binomial and Poisson counts, and the Clopper-Pearson interval |
+//! | [`collisions`] | do values that should be spread over many urns meet too often? |
 //! | [`poisson_binomial`] | does a count of unequal but independent events match their probabilities? |
 //! | [`correlation`] | are two sequences related? |
 //! | [`tails`] | both tails of a statistic, and their common p-value |
+//! | [`autocorrelation`] | does a field repeat itself as predicted? |
+//! | [`spectrum`] | does an image have the spectrum that its autocovariance predicts? |
+//! | [`fisher_g`] | is one of many exponential ordinates too large? |
 //! | [`multiplicity`] | what is a p-value worth among many? |
 //! | [`sequential`] | the same, when what is suspect may be asked again on fresh data |
 //! | [`power`] | what is the smallest defect that a test can see? |
@@ -29,12 +33,15 @@
 //! and tolerances; files, text output and serialization; estimates without a stated law.
 
 pub mod anderson_darling;
+pub mod autocorrelation;
 pub mod beta;
 pub mod binomial;
 pub mod chi_square;
+pub mod collisions;
 pub mod correlation;
 pub mod ecdf;
 pub mod error;
+pub mod fisher_g;
 pub mod histogram;
 pub mod multiplicity;
 pub mod normal;
@@ -42,6 +49,7 @@ pub mod poisson_binomial;
 pub mod power;
 pub mod seed;
 pub mod sequential;
+pub mod spectrum;
 pub mod tails;
 pub mod two_sample;
 pub mod variance;
