@@ -55,7 +55,7 @@ pub fn kolmogorov_smirnov(left: &mut [f64], right: &mut [f64]) -> Result<TwoSamp
     let product = n[0] as f64 * n[1] as f64;
     let d = distance as f64 / product;
     let is_exact = 2.0 * distance as f64 <= EXACT_STEPS;
-    let p = if is_exact { leaves_band(distance as u64, n) } else { limit_law(d, n) };
+    let p = if is_exact { upper_p(distance as u64, n) } else { limit_law(d, n) };
     Ok(TwoSampleKs { d, n, p, is_exact })
 }
 
@@ -75,14 +75,20 @@ fn largest_distance(left: &[f64], right: &[f64]) -> u128 {
 /// P(D >= d) in the limit of large samples.
 fn limit_law(d: f64, n: [u64; 2]) -> f64 {
     let [m, n] = n.map(|n| n as f64);
-    ecdf::limit_law(d * (m * n / (m + n)).sqrt())
+    ecdf::limit_upper_p(d * (m * n / (m + n)).sqrt())
 }
 
-/// P(D >= distance / (m n)), exactly, for samples without ties.
+/// Gives the probability that two samples of the given sizes m and n have a distance of at least `distance / (m
+/// n)`, exactly.
 ///
 /// The merged samples are a walk from (0, 0) to (m, n), all walks being equally likely. It leaves the band at
-/// its first point (i, j) with |i n - j m| >= distance.
-fn leaves_band(distance: u64, sizes: [u64; 2]) -> f64 {
+/// its first point (i, j) with |i n - j m| >= distance. Takes about 2 `distance` steps.
+///
+/// # Panics
+/// If a size is 0.
+#[must_use]
+pub fn upper_p(distance: u64, sizes: [u64; 2]) -> f64 {
+    assert!(sizes[0] > 0 && sizes[1] > 0, "samples of {sizes:?}");
     if distance == 0 {
         return 1.0;
     }
@@ -140,8 +146,8 @@ mod tests {
             for k in 1..=m * n {
                 let far = orders().filter(|&order| distance(order) >= k).count();
                 let p = far as f64 / orders().count() as f64;
-                assert_close(leaves_band(k, [m, n]), p, 1e-13);
-                assert_close(leaves_band(k, [n, m]), p, 1e-13);
+                assert_close(upper_p(k, [m, n]), p, 1e-13);
+                assert_close(upper_p(k, [n, m]), p, 1e-13);
             }
         }
     }
@@ -149,11 +155,11 @@ mod tests {
     /// Only two of all merges separate the samples: p = 2 m! n! / (m + n)!.
     #[test]
     fn tails_are_true_tails() {
-        assert_close(leaves_band(400 * 500, [400, 500]), 2.3140701737176122e-267, 1e-12);
+        assert_close(upper_p(400 * 500, [400, 500]), 2.3140701737176122e-267, 1e-12);
         let (mut low, mut high): (Vec<f64>, Vec<f64>) = (0..900).map(f64::from).partition(|&x| x < 400.0);
         let ks = kolmogorov_smirnov(&mut high, &mut low).unwrap();
         assert_eq!((ks.d, ks.n, ks.is_exact), (1.0, [500, 400], true));
-        assert_eq!(ks.p, leaves_band(400 * 500, [500, 400]));
+        assert_eq!(ks.p, upper_p(400 * 500, [500, 400]));
     }
 
     /// Two large samples, of equal size, of sizes with a common factor, and without.
@@ -164,7 +170,7 @@ mod tests {
                 let product = f64::from(m * n);
                 let distance = (z * (f64::from(m + n) * product).sqrt()) as u64 / common * common;
                 let sizes = [u64::from(m), u64::from(n)];
-                let excess = limit_law(distance as f64 / product, sizes) / leaves_band(distance, sizes) - 1.0;
+                let excess = limit_law(distance as f64 / product, sizes) / upper_p(distance, sizes) - 1.0;
                 let least = f64::from(m.min(n));
                 assert!(excess > -1.0 / least, "{m} {n} {z}: {excess}");
                 assert!(excess < 2.0 * z / least.sqrt(), "{m} {n} {z}: {excess}");
