@@ -3,3 +3,5 @@
 //! What never lives here: claims, statistics, printing.
 
 pub mod assemble;
+#[cfg(feature = "gpu")]
+pub mod gpu;
