@@ -1,37 +1,246 @@
-//! scratch
-use hashed_alpha::shader::gpu::{Choice, Device, Kernel, adapter};
-use std::time::{Duration, Instant};
-fn main() {
-    let t = Instant::now();
-    for a in adapter::adapters() { println!("{} {}", a.name(), a.is_software()); }
-    println!("{:?}", t.elapsed());
-    for name in std::env::args().skip(2) {
-        let t = Instant::now();
-        let d = Device::open_with_timeout(&Choice::from(name.as_str()), Duration::from_secs(3)).unwrap();
-        println!("{name}: open {:?}", t.elapsed());
-        let t = Instant::now();
-        let p = d.compile(&Kernel::of_words("", 1, 1, "array(bitcast<u32>(log2(number(0u))))")).unwrap();
-        println!("compile {:?}", t.elapsed());
-        let t = Instant::now();
-        let input: Vec<f32> = (0..3_000_000).map(|i| i as f32 * 0.37 + 0.1).collect();
-        let out: Vec<f32> = p.map(&input).unwrap();
-        println!("map {:?} {:?}", t.elapsed(), &out[..3]);
-        let p = d.compile(&Kernel::of_drawn_words("", 1, "array(word(0u))")).unwrap();
-        let out = p.draw::<u32>(7, 3_000_000).unwrap();
-        println!("{:?} {:?}", out.time, &out.outputs[..3]);
-        assert!(out.outputs.iter().enumerate().all(|(i, &w)| w == hashed_alpha::shader::gpu::program::drawn_word(7, i as u32, 0)));
-        println!("{:?}", d.compile(&Kernel::of_words("", 1, 1, "array(foo(number(0u)))")).err());
-        println!("{:?}", d.compile(&Kernel::of_words("fn f(x: u32) -> u32 { if x > 0u {made_words[0] = 3u; } return 2139806637u; }", 1, 1, "array(f(word(0u)))")).unwrap().map::<u32, u32>(&[0]).err());
-        if std::env::args().nth(1).unwrap() == "endless" {
-        let t = Instant::now();
-        let r = d.compile(&Kernel::of_words("fn f(x: u32) -> u32 { var y = x; loop { y = y * 3u + 1u; if y == 0xffffffffu && x == 17u { break; } } return y; }", 1, 1, "array(f(word(0u)))"));
-        println!("{:?} {:?}", r.as_ref().err(), t.elapsed());
-        if let Ok(r) = r { println!("{:?} {:?}", r.map::<u32, u32>(&[2; 100]).err(), t.elapsed()); }
-        println!("{:?}", p.draw::<u32>(7, 3).err());
-        } else {
-        println!("{:?}", d.destroy());
-        println!("{:?}", p.draw::<u32>(7, 3).err());
+//! Shaders on every device of this machine.
+//!
+//! One trial a claim and adapter. An adapter that is not there has one ignored trial that says so; with
+//! `HASHED_ALPHA_REQUIRE=gpu` that is a failure. Adapters that are looked for by name are the three software ones that
+//! a machine without a GPU can have; any other that is found is tried as well.
+//!
+//! Vulkan's loader and Mesa read the environment as it was when the process began. The trials therefore run in a child
+//! process of this one, with SwiftShader (it comes with Chromium) added to the drivers and Mesa's layers silenced.
+
+use hashed_alpha::scene::{Fragment, Scene};
+use hashed_alpha::shader::assemble::{POSITION, ShaderOptions};
+use hashed_alpha::shader::gpu::adapter::{Adapter, adapters};
+use hashed_alpha::shader::gpu::evaluate::Constants;
+use hashed_alpha::shader::gpu::program::drawn_word;
+use hashed_alpha::shader::gpu::{Choice, Device, Error, Evaluator, Kernel};
+use hashed_alpha::threshold::robust::Robust;
+use hashed_alpha::threshold::two_scale::Variant;
+use libtest_mimic::{Arguments, Failed, Trial};
+use std::path::Path;
+use std::process::{Command, ExitCode, Output};
+use std::time::Duration;
+use std::{env, fs};
+
+/// Set for child processes: `trials`, or one of the two that must have a process of their own.
+const ROLE: &str = "HASHED_ALPHA_GPU_TEST_ROLE";
+
+/// Software adapters: what we call them, and a part of the name by which they are found.
+const SOFTWARE: [(&str, &str); 3] =
+    [("lavapipe", "vulkan llvmpipe"), ("opengl", "gl llvmpipe"), ("swiftshader", "vulkan swiftshader")];
+
+fn main() -> ExitCode {
+    match env::var(ROLE).as_deref() {
+        Ok("trials") => {
+            libtest_mimic::run(&Arguments::from_args(), trials()).exit();
+        }
+        Ok("endless") => run_endless(),
+        Ok("absent") => {
+            let error = Device::open(&Choice::First).map(|device| device.name().to_owned());
+            fs::write(env::args().nth(1).expect("a file"), format!("{error:?}")).expect("a file to write");
+            ExitCode::SUCCESS
+        }
+        _ => {
+            let mut child = Command::new(env::current_exe().expect("this program"));
+            child.args(env::args_os().skip(1)).env(ROLE, "trials").env("NODEVICE_SELECT", "1");
+            if let Some(driver) = swiftshader() {
+                child.env("VK_ADD_DRIVER_FILES", driver);
+            }
+            let code = child.status().expect("the trials run").code();
+            ExitCode::from(code.and_then(|code| u8::try_from(code).ok()).unwrap_or(101))
         }
     }
-    println!("end {:?}", t.elapsed());
+}
+
+/// Where Chromium keeps the description of its Vulkan driver.
+fn swiftshader() -> Option<&'static str> {
+    ["/usr/lib/chromium", "/usr/lib/chromium-browser", "/opt/google/chrome"]
+        .iter()
+        .map(|folder| format!("{folder}/vk_swiftshader_icd.json").leak() as &str)
+        .find(|path| Path::new(path).is_file())
+}
+
+type Claim = fn(&Device) -> Result<(), Failed>;
+
+const CLAIMS: [(&str, Claim); 5] = [
+    ("outputs_stand_in_the_order_of_inputs_whatever_the_chunk", outputs_stand_in_order),
+    ("words_drawn_on_the_device_are_those_drawn_here", drawn_words_agree),
+    ("an_invalid_shader_is_an_error_with_its_place", invalid_shaders_are_errors),
+    ("writing_nothing_is_told_from_writing_zero", nothing_is_not_zero),
+    ("an_assembled_threshold_follows_the_one_in_rust", assembled_thresholds_follow),
+];
+
+fn trials() -> Vec<Trial> {
+    let is_required =
+        env::var("HASHED_ALPHA_REQUIRE").is_ok_and(|list| list.split(',').any(|item| item == "gpu"));
+    let found = adapters();
+    let mut trials =
+        vec![Trial::test("without_a_driver_the_error_says_what_was_looked_for", absence_is_an_error)];
+    for (label, part) in SOFTWARE {
+        if found.iter().any(|adapter| has(adapter, part)) {
+            trials.extend(trials_of(label, part));
+        } else if is_required {
+            let missing = Choice::from(part).find().map(|adapter| adapter.name());
+            trials.push(Trial::test(format!("{label}::is_there"), move || {
+                Err(Failed::from(format!("HASHED_ALPHA_REQUIRE asks for it: {missing:?}")))
+            }));
+        } else {
+            let name = format!("{label} (no adapter with `{part}` in its name)");
+            trials.push(Trial::test(name, || Ok(())).with_ignored_flag(true));
+        }
+    }
+    for other in found.iter().filter(|adapter| !SOFTWARE.iter().any(|(_, part)| has(adapter, part))) {
+        let name: &str = other.name().leak();
+        trials.extend(trials_of(name, name));
+    }
+    trials
+}
+
+fn has(adapter: &Adapter, part: &str) -> bool {
+    adapter.name().to_lowercase().contains(&part.to_lowercase())
+}
+
+fn trials_of(label: &'static str, part: &'static str) -> Vec<Trial> {
+    let on_device = move |claim: Claim| move || claim(&Device::open(&Choice::from(part))?);
+    let mut trials: Vec<_> = CLAIMS
+        .iter()
+        .map(|&(name, claim)| Trial::test(format!("{label}::{name}"), on_device(claim)))
+        .collect();
+    trials.push(Trial::test(format!("{label}::a_lost_device_answers_with_an_error"), move || {
+        losing_is_an_error(&Device::open(&Choice::from(part))?)
+    }));
+    trials.push(Trial::test(format!("{label}::an_endless_shader_ends_with_an_error"), move || {
+        endless_ends(part)
+    }));
+    trials
+}
+
+/// Runs this program in another role.
+fn in_child(role: &str, argument: &str, environment: &[(&str, &str)]) -> std::io::Result<Output> {
+    Command::new(env::current_exe()?).arg(argument).env(ROLE, role).envs(environment.iter().copied()).output()
+}
+
+fn absence_is_an_error() -> Result<(), Failed> {
+    let folder = tempfile::tempdir()?;
+    let file = folder.path().join("error");
+    // No driver is found where these point.
+    let nowhere = [
+        ("VK_DRIVER_FILES", "/nonexistent"),
+        ("VK_ADD_DRIVER_FILES", ""),
+        ("__EGL_VENDOR_LIBRARY_FILENAMES", "/nonexistent"),
+    ];
+    let output = in_child("absent", &file.display().to_string(), &nowhere)?;
+    let error = fs::read_to_string(&file)?;
+    if !output.status.success() || !error.contains("Unavailable") || !output.stderr.is_empty() {
+        return Err(format!("{error} {output:?}").into());
+    }
+    Ok(())
+}
+
+fn outputs_stand_in_order(device: &Device) -> Result<(), Failed> {
+    let program = device.compile(&Kernel::of_words("", 2, 1, "array(word(0u) * 3u + word(1u))"))?;
+    let inputs: Vec<u32> = (0..200_000).collect();
+    let expected: Vec<u32> = inputs.chunks(2).map(|pair| pair[0] * 3 + pair[1]).collect();
+    for chunk in [1 << 20, 4096, 777] {
+        assert!(program.clone().with_chunk(chunk).map(&inputs)? == expected, "chunk {chunk}");
+    }
+    assert!(program.map(&[])?.is_empty());
+    assert!(matches!(program.map(&[1]), Err(Error::Validation(_))));
+    // More workgroups than one dimension has, and more bytes than a binding of 128 MiB.
+    let wide = device.compile(&Kernel::of_words("", 9, 1, "array(word(8u))"))?;
+    let inputs: Vec<u32> = (0..9 * 4_300_000).collect();
+    let outputs = wide.map(&inputs)?;
+    assert!(outputs.iter().zip(0..).all(|(&word, i)| word == 9 * i + 8) && outputs.len() == 4_300_000);
+    Ok(())
+}
+
+fn drawn_words_agree(device: &Device) -> Result<(), Failed> {
+    let program =
+        device.compile(&Kernel::of_drawn_words("", 2, "array(word(0u), word(5u))"))?.with_chunk(3000);
+    let drawn = program.draw(7, 10_000)?;
+    for (index, words) in drawn.words.chunks(2).enumerate() {
+        assert_eq!(words, [drawn_word(7, index as u32, 0), drawn_word(7, index as u32, 5)]);
+    }
+    assert_ne!(drawn, program.draw(8, 10_000)?);
+    assert_eq!(drawn.time.is_some(), device.has_timestamps());
+    Ok(())
+}
+
+fn invalid_shaders_are_errors(device: &Device) -> Result<(), Failed> {
+    for (source, what) in [
+        ("fn threshold(position: vec3<f32>) -> f32 {\n    return gloss;\n}", "wgsl:2:12"),
+        ("fn threshold(position: vec3<f32>) -> f32 { return position; }", "threshold"),
+    ] {
+        let error = Evaluator::new(device, source, &[POSITION], Constants::default()).err();
+        let Some(Error::Validation(message)) = error else {
+            return Err(format!("{error:?}").into());
+        };
+        assert!(message.contains(what), "{message}");
+    }
+    // The device is as good as before.
+    device.compile(&Kernel::of_words("", 1, 1, "array(word(0u))"))?.map(&[1])?;
+    Ok(())
+}
+
+fn nothing_is_not_zero(device: &Device) -> Result<(), Failed> {
+    let zero = device.compile(&Kernel::of_words("", 1, 1, "array(word(0u) * 0u)"))?;
+    assert_eq!(zero.map(&[1, 2, 3])?, [0, 0, 0]);
+    let mut kernel = Kernel::of_words("", 1, 1, "array(word(0u))");
+    kernel.source = kernel.source.replace("if first >=", "if element == 5u || first >=");
+    let program = device.compile(&kernel)?.with_chunk(64);
+    assert_eq!(program.map(&[7; 100]), Err(Error::NotWritten(5)));
+    Ok(())
+}
+
+fn losing_is_an_error(device: &Device) -> Result<(), Failed> {
+    let program = device.compile(&Kernel::of_words("", 1, 1, "array(word(0u))"))?;
+    assert!(matches!(device.destroy(), Err(Error::Lost(_))));
+    assert!(matches!(program.map(&[1]), Err(Error::Lost(_))));
+    Ok(())
+}
+
+/// In a process of its own: the driver's threads run on until it ends.
+fn endless_ends(part: &str) -> Result<(), Failed> {
+    let output = in_child("endless", part, &[])?;
+    if !output.status.success() {
+        return Err(format!("{output:?}").into());
+    }
+    Ok(())
+}
+
+fn run_endless() -> ExitCode {
+    let choice = Choice::from(env::args().nth(1).expect("an adapter").as_str());
+    let timeout = Duration::from_secs(1);
+    // Mesa's software drivers leave a shader's loops after 65,535 turns in all and return what there is; so many
+    // elements take a minute all the same.
+    let source = "
+fn endless(x: u32) -> u32 {
+    var y = x;
+    loop {
+        y = y * 3u + 1u;
+        if y == x && x == 1u { break; }
+    }
+    return y;
+}";
+    let kernel = Kernel::of_words(source, 1, 1, "array(endless(word(0u)))");
+    let result = Device::open_with_timeout(&choice, timeout)
+        .and_then(|device| device.compile(&kernel)?.map(&[2; 1 << 20]));
+    if result == Err(Error::TimedOut(timeout)) { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+}
+
+fn assembled_thresholds_follow(device: &Device) -> Result<(), Failed> {
+    let fragments: Vec<Fragment> = Scene::all()
+        .into_iter()
+        .flat_map(|scene| {
+            scene.with_resolution([96, 72]).footprints().map(Fragment::from).collect::<Vec<_>>()
+        })
+        .collect();
+    let options = ShaderOptions::robust(Variant::Isotropic);
+    let shader = Evaluator::assembled(device, &options, Constants::default())?;
+    let robust = Robust::new(Variant::Isotropic);
+    for (fragment, threshold) in fragments.iter().zip(shader.thresholds(&fragments)?) {
+        let expected: f32 = robust.threshold(&fragment.footprint.cast())?;
+        // The slope of the threshold over the lerp factor is at most 2, and log2 is within 2^-21 on [1, 2).
+        assert!((threshold - expected).abs() < 1.7e-6, "{fragment:?}: {threshold}, not {expected}");
+    }
+    Ok(())
 }

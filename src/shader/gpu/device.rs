@@ -81,7 +81,8 @@ impl Device {
                 }
             })
             .map_err(|error| Error::Lost(error.to_string()))?;
-        let (name, features, limits) = opened.recv_timeout(timeout).map_err(|_| Error::TimedOut(timeout))??;
+        let (name, features, limits) =
+            opened.recv_timeout(timeout).map_err(|_| Error::TimedOut(timeout))??;
         Ok(Self(Arc::new(Opened {
             name,
             features,
@@ -224,4 +225,3 @@ fn open(adapter: &Adapter) -> Result<(String, Context), Error> {
     }));
     Ok((adapter.name(), Context { device, queue, programs: Vec::new(), lost }))
 }
-

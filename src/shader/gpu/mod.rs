@@ -4,6 +4,7 @@
 //! |---|---|
 //! | [`adapter`] | lists the drivers of the machine and picks one by name, index or the environment |
 //! | [`device`] | opens it; every call into a driver has a time limit |
+//! | [`evaluate`] | runs a function `threshold` over fragments |
 //! | [`program`] | runs a WGSL function over inputs from memory, or over inputs that the device makes itself |
 //!
 //! Back ends are Vulkan and OpenGL. Both libraries are opened at run time, so that the crate builds and answers on a
@@ -12,10 +13,12 @@
 
 pub mod adapter;
 pub mod device;
+pub mod evaluate;
 pub mod program;
 
 pub use adapter::{Choice, Unavailable};
 pub use device::Device;
+pub use evaluate::Evaluator;
 pub use program::{Kernel, Program};
 
 use std::time::Duration;

@@ -2,7 +2,6 @@
 
 use super::device::Context;
 use super::{Device, Error};
-use bytemuck::Pod;
 use std::time::Duration;
 use wgpu::{
     BindGroupDescriptor, BindGroupEntry, Buffer, BufferDescriptor, BufferUsages, ComputePassDescriptor,
@@ -105,10 +104,10 @@ pub struct Program {
 }
 
 /// The outputs of elements that the device drew itself.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Drawn<O> {
-    /// One an element.
-    pub outputs: Vec<O>,
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Drawn {
+    /// Those of each element, one behind the other.
+    pub words: Vec<u32>,
     /// How long the program ran on the device, without transfers; `None` where the device has no clock.
     pub time: Option<Duration>,
 }
@@ -123,8 +122,7 @@ impl Device {
         let Kernel { source, entry_point, workgroup_size, words_in, words_out } = kernel.clone();
         let index = self.call(move |context| {
             let source = ShaderSource::Wgsl(source.into());
-            let module =
-                context.device.create_shader_module(ShaderModuleDescriptor { label: None, source });
+            let module = context.device.create_shader_module(ShaderModuleDescriptor { label: None, source });
             context.programs.push(context.device.create_compute_pipeline(&ComputePipelineDescriptor {
                 label: None,
                 layout: None,
@@ -138,8 +136,7 @@ impl Device {
         let limits = self.limits();
         let most_bytes = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
         let by_bytes = most_bytes / (4 * words_in.max(words_out).max(1) as u64);
-        let by_groups =
-            u64::from(limits.max_compute_workgroups_per_dimension) * u64::from(workgroup_size);
+        let by_groups = u64::from(limits.max_compute_workgroups_per_dimension) * u64::from(workgroup_size);
         let chunk = by_bytes.min(by_groups).min(LARGEST_CHUNK as u64) as usize;
         Ok(Program { device: self.clone(), index, words_in, words_out, chunk, workgroup_size })
     }
@@ -153,22 +150,22 @@ impl Program {
         self
     }
 
-    /// Evaluates every input; the outputs stand in the order of the inputs, whatever the number of dispatches.
+    /// Evaluates inputs that stand one behind the other, each of [`Kernel::words_in`] words; the outputs stand in the
+    /// same order, whatever the number of dispatches.
     ///
     /// # Errors
     ///
     /// [`Error::NotWritten`] for an element that the shader leaves out, [`Error::TimedOut`] where a dispatch does not
-    /// end, [`Error::Validation`] where a type has not the words that the kernel states, and those of a lost device.
-    pub fn map<I: Pod, O: Pod>(&self, inputs: &[I]) -> Result<Vec<O>, Error> {
-        self.check::<O>()?;
-        if size_of::<I>() != 4 * self.words_in || self.words_in == 0 {
-            return Err(mismatch("an input", self.words_in, size_of::<I>()));
+    /// end, [`Error::Validation`] for a number of words that is not a whole number of inputs, and those of a lost device.
+    pub fn map(&self, words: &[u32]) -> Result<Vec<u32>, Error> {
+        if self.words_in == 0 || !words.len().is_multiple_of(self.words_in) {
+            let message = format!("{} words are no inputs of {} each", words.len(), self.words_in);
+            return Err(Error::Validation(message));
         }
-        let mut outputs = Vec::with_capacity(inputs.len());
-        for chunk in inputs.chunks(self.chunk) {
-            let input = bytemuck::cast_slice(chunk).to_vec();
-            let (output, _) = self.dispatch(input, chunk.len(), outputs.len())?;
-            outputs.extend(bytemuck::pod_collect_to_vec::<u32, O>(&output));
+        let mut outputs = Vec::with_capacity(words.len() / self.words_in * self.words_out);
+        for chunk in words.chunks(self.chunk * self.words_in) {
+            let first = outputs.len() / self.words_out;
+            outputs.extend(self.dispatch(chunk.to_vec(), chunk.len() / self.words_in, first)?.0);
         }
         Ok(outputs)
     }
@@ -177,34 +174,25 @@ impl Program {
     ///
     /// # Errors
     ///
-    /// Those of [`Program::map`]; a kernel that reads inputs is a mismatch.
-    pub fn draw<O: Pod>(&self, seed: u32, count: u32) -> Result<Drawn<O>, Error> {
-        self.check::<O>()?;
+    /// Those of [`Program::map`]; a kernel that reads inputs draws none.
+    pub fn draw(&self, seed: u32, count: u32) -> Result<Drawn, Error> {
         if self.words_in != 0 {
-            return Err(mismatch("an input", self.words_in, 0));
+            return Err(Error::Validation("the kernel reads inputs and draws none".to_owned()));
         }
-        let mut drawn = Drawn { outputs: Vec::with_capacity(count as usize), time: Some(Duration::ZERO) };
+        let mut drawn = Drawn { words: Vec::new(), time: Some(Duration::ZERO) };
         for first in (0..count).step_by(self.chunk) {
             let elements = self.chunk.min((count - first) as usize);
-            let input = bytemuck::cast_slice(&[first, seed]).to_vec();
-            let (output, time) = self.dispatch(input, elements, first as usize)?;
-            drawn.outputs.extend(bytemuck::pod_collect_to_vec::<u32, O>(&output));
+            let (output, time) = self.dispatch(vec![first, seed], elements, first as usize)?;
+            drawn.words.extend(output);
             drawn.time = drawn.time.zip(time).map(|(sum, time)| sum + time);
         }
         Ok(drawn)
     }
 
-    fn check<O: Pod>(&self) -> Result<(), Error> {
-        if size_of::<O>() != 4 * self.words_out {
-            return Err(mismatch("an output", self.words_out, size_of::<O>()));
-        }
-        Ok(())
-    }
-
     /// Runs one chunk; `first` is the index of its first element, for the message.
     fn dispatch(
         &self,
-        input: Vec<u8>,
+        input: Vec<u32>,
         elements: usize,
         first: usize,
     ) -> Result<(Vec<u32>, Option<Duration>), Error> {
@@ -220,15 +208,11 @@ impl Program {
     }
 }
 
-fn mismatch(what: &str, words: usize, bytes: usize) -> Error {
-    Error::Validation(format!("{what} of the kernel has {words} words, the type given has {bytes} bytes"))
-}
-
 /// Sends the input, runs a program and fetches its output.
 fn run(
     context: &Context,
     program: usize,
-    input: &[u8],
+    input: &[u32],
     words_out: usize,
     groups: u32,
     has_clock: bool,
@@ -241,10 +225,9 @@ fn run(
     let buffer = |size: u64, usage: BufferUsages| {
         device.create_buffer(&BufferDescriptor { label: None, size, usage, mapped_at_creation: false })
     };
-    let given = buffer(input.len() as u64, BufferUsages::STORAGE | BufferUsages::COPY_DST);
-    queue.write_buffer(&given, 0, input);
-    let made =
-        buffer(bytes_out, BufferUsages::STORAGE | BufferUsages::COPY_SRC | BufferUsages::COPY_DST);
+    let given = buffer(4 * input.len() as u64, BufferUsages::STORAGE | BufferUsages::COPY_DST);
+    queue.write_buffer(&given, 0, bytemuck::cast_slice(input));
+    let made = buffer(bytes_out, BufferUsages::STORAGE | BufferUsages::COPY_SRC | BufferUsages::COPY_DST);
     queue.write_buffer(&made, 0, bytemuck::cast_slice(&vec![SENTINEL; words_out]));
     let fetched = buffer(bytes_out, BufferUsages::MAP_READ | BufferUsages::COPY_DST);
 
@@ -269,8 +252,7 @@ fn run(
             beginning_of_pass_write_index: Some(0),
             end_of_pass_write_index: Some(1),
         });
-        let mut pass =
-            encoder.begin_compute_pass(&ComputePassDescriptor { label: None, timestamp_writes });
+        let mut pass = encoder.begin_compute_pass(&ComputePassDescriptor { label: None, timestamp_writes });
         pass.set_pipeline(pipeline);
         pass.set_bind_group(0, &bind_group, &[]);
         pass.dispatch_workgroups(groups, 1, 1);
@@ -286,7 +268,8 @@ fn run(
         Some((.., read)) => {
             let ticks = fetch(context, read)?;
             let ticks: Vec<u64> = bytemuck::pod_collect_to_vec(&ticks);
-            let nanoseconds = ticks[1].saturating_sub(ticks[0]) as f64 * f64::from(queue.get_timestamp_period());
+            let nanoseconds =
+                ticks[1].saturating_sub(ticks[0]) as f64 * f64::from(queue.get_timestamp_period());
             Some(Duration::from_nanos(nanoseconds as u64))
         }
         None => None,
