@@ -5,3 +5,4 @@
 pub mod assemble;
 #[cfg(feature = "gpu")]
 pub mod gpu;
+pub mod interpreter;

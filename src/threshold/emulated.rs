@@ -5,6 +5,7 @@
 //!
 //! | model | what it permits itself |
 //! |---|---|
+//! | [`Single`] | nothing: the reference |
 //! | [`CoarseSine`] | a sine no better than WGSL demands: an absolute error of 2^-11 |
 //! | [`ReducedSine`] | a sine that first multiplies its argument by 1/(2 pi), rounded to `f32` |
 //! | [`Half`] | `mediump`: every operation is rounded to IEEE binary16 |
@@ -48,6 +49,10 @@ pub trait Arithmetic: Copy + Debug + Default + Send + Sync + 'static {
     /// Whether a product that is added to or subtracted from something is rounded only after that.
     const FUSES: bool = false;
 
+    /// Whether [`round`](Self::round) is the one that this trait provides, so that an `f32` operation needs no more
+    /// rounding; saves time where it is said.
+    const IS_SINGLE: bool = false;
+
     /// Rounds a result of 53 bits to what the arithmetic can hold.
     ///
     /// 53 bits are more than twice 24 and two, so that rounding the `f64` sum, product, quotient or root of two `f32`
@@ -62,6 +67,21 @@ pub trait Arithmetic: Copy + Debug + Default + Send + Sync + 'static {
     fn sin(x: f32) -> f32 {
         sin_f32(x)
     }
+
+    /// Returns the cosine of an angle in radians; no listing takes one, but a shader may.
+    #[must_use]
+    fn cos(x: f32) -> f32 {
+        libm::cos(f64::from(x)) as f32
+    }
+}
+
+/// IEEE `f32` itself, with the reference sine.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Single;
+
+impl Arithmetic for Single {
+    const NAME: &'static str = "accurate";
+    const IS_SINGLE: bool = true;
 }
 
 /// A sine with the least accuracy that WGSL permits.
@@ -74,8 +94,12 @@ pub struct CoarseSine;
 
 impl Arithmetic for CoarseSine {
     const NAME: &'static str = "coarse sine";
+    const IS_SINGLE: bool = true;
     fn sin(x: f32) -> f32 {
         (sin_f32(x) * 1024.0).round_ties_even() / 1024.0
+    }
+    fn cos(x: f32) -> f32 {
+        (Single::cos(x) * 1024.0).round_ties_even() / 1024.0
     }
 }
 
@@ -87,9 +111,19 @@ pub struct ReducedSine;
 
 impl Arithmetic for ReducedSine {
     const NAME: &'static str = "reduced sine";
+    const IS_SINGLE: bool = true;
     fn sin(x: f32) -> f32 {
+        sin_f32(Self::reduced(x))
+    }
+    fn cos(x: f32) -> f32 {
+        Single::cos(Self::reduced(x))
+    }
+}
+
+impl ReducedSine {
+    fn reduced(x: f32) -> f32 {
         let turns = x * (1.0 / core::f32::consts::TAU);
-        sin_f32(Real::fract(turns) * core::f32::consts::TAU)
+        Real::fract(turns) * core::f32::consts::TAU
     }
 }
 
@@ -146,6 +180,7 @@ pub struct Fused;
 
 impl Arithmetic for Fused {
     const NAME: &'static str = "fused";
+    const IS_SINGLE: bool = true;
     const FUSES: bool = true;
 }
 
@@ -311,20 +346,13 @@ mod tests {
     use super::super::hash::sine::hash_3d;
     use super::*;
 
-    /// Plain `f32` behind the wrapper.
-    #[derive(Clone, Copy, Debug, Default)]
-    struct Plain;
-    impl Arithmetic for Plain {
-        const NAME: &'static str = "plain";
-    }
-
     #[test]
     fn the_wrapper_alone_changes_no_bit() {
         for x in -60..60 {
             for y in -60..60 {
                 let cell = [f64::from(x) * 1237.0, f64::from(y) * 0.37, f64::from(x - y)];
                 let plain = hash_3d::<f32>(cell.map(|c| c as f32).into());
-                let wrapped = hash_3d::<Emulated<Plain>>(cell.map(Emulated::from_f64));
+                let wrapped = hash_3d::<Emulated<Single>>(cell.map(Emulated::from_f64));
                 assert_eq!(wrapped.value.to_bits(), plain.to_bits(), "{cell:?}");
             }
         }
@@ -336,7 +364,7 @@ mod tests {
             let x = Emulated::<A>::from_f64(1.0 + 1.0 / 8192.0);
             (x * x - Emulated::from_f64((x * x).to_f64())).to_f64()
         }
-        assert_eq!(rest::<Plain>(), 0.0);
+        assert_eq!(rest::<Single>(), 0.0);
         assert_eq!(rest::<Fused>(), 1.0 / 67_108_864.0);
     }
 

@@ -1,0 +1,203 @@
+//! Runs a function of a validated naga module on many lanes at once, without a driver.
+//!
+//! Not in the paper. A function is compiled once ([`Program::compile`]) to operations on columns of 128 lanes and
+//! then run on as many lanes as are wanted ([`Program::run`]), under the reference semantics or under a model of what
+//! a device may make of it ([`DeviceModel`]).
+//!
+//! ```
+//! use hashed_alpha::shader::interpreter::{Column, DeviceModel, Program, Values};
+//!
+//! let source = "fn ramp(x: f32, n: u32) -> f32 {
+//!     var sum = 0.0;
+//!     for (var i = 0u; i < n; i++) { sum += x; }
+//!     return fract(sum);
+//! }";
+//! let module = naga::front::wgsl::parse_str(source)?;
+//! let info = naga::valid::Validator::new(Default::default(), Default::default()).validate(&module)?;
+//! let program = Program::compile(&module, &info, "ramp")?;
+//! let columns = [Column::F32(&[0.25, 0.5, 0.75]), Column::U32(&[3])];
+//! let result = program.run(&columns, 3, &DeviceModel::ACCURATE)?;
+//! assert_eq!(result, [Values::F32(vec![0.75, 0.5, 0.25])]);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! **What it takes**: all of WGSL that a function can do by itself with numbers of 32 bits and truth values: control
+//! flow, calls, pointers, composites, private variables, constants, overrides with a default, every builtin of numbers
+//! and bits. What it does not take is refused with its place ([`Unsupported`]): textures, buffers, atomics, barriers,
+//! derivatives, `discard`, numbers of 16 or 64 bits.
+//!
+//! **What it means where WGSL leaves it open**: an index out of range is the last element. A float becomes an integer
+//! towards zero and saturates, NaN becomes 0. `min`, `max` and `clamp` keep a NaN in their first argument and drop it
+//! from the others, as [`Real`](crate::threshold::real::Real) does. `fract` is `x - floor(x)` and can be 1. `fma`
+//! rounds once. `pow` of a negative number is NaN. Sums run from left to right. Of integers `x / 0` is `x`, `x % 0`
+//! is 0, overflow wraps, and a shift takes the distance modulo 32.
+//!
+//! **It ends**: a block of lanes has a number of steps ([`Program::steps`]); a loop that uses them up stops the run
+//! and is named ([`Stopped::Endless`]).
+
+mod columns;
+mod compile;
+mod error;
+mod kernel;
+mod machine;
+mod model;
+mod op;
+
+pub use columns::{Column, Kind, Values};
+pub use error::{Stopped, Unsupported};
+pub use model::DeviceModel;
+
+use core::ops::Not;
+use machine::{LANES, Machine};
+use naga::Module;
+use naga::valid::ModuleInfo;
+use op::{Block, Register};
+use rayon::prelude::*;
+
+/// A function that is ready to run.
+#[derive(Clone, Debug)]
+pub struct Program {
+    /// The most operations and rounds of loops that a block of 128 lanes may take in one run.
+    pub steps: u64,
+    parameters: Vec<Parameter>,
+    result: Vec<Kind>,
+    /// The registers of all scalars of all parameters in order, and of the result.
+    arguments: Vec<Register>,
+    results: Vec<Register>,
+    constants: Vec<(Register, Constant)>,
+    body: Block,
+    registers: usize,
+}
+
+/// A parameter of a function.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Parameter {
+    /// Its name in the source.
+    pub name: String,
+    /// Its scalars: the components of a vector, the columns of a matrix, the members of a structure one after the
+    /// other.
+    pub components: Vec<Kind>,
+}
+
+/// A word that is the same in all lanes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+struct Constant {
+    bits: u32,
+    /// Whether a device rounds it.
+    float: bool,
+}
+
+impl Program {
+    /// The steps of a new program: about a second of work.
+    pub const DEFAULT_STEPS: u64 = 1 << 26;
+
+    /// Compiles a function, or an entry point, of a module that naga has validated.
+    ///
+    /// # Errors
+    /// There is no such function, or something in it or in what it calls is not interpreted.
+    pub fn compile(module: &Module, info: &ModuleInfo, function: &str) -> Result<Self, Unsupported> {
+        compile::compile(module, info, function)
+    }
+
+    /// Returns the parameters in order.
+    #[must_use]
+    pub fn parameters(&self) -> &[Parameter] {
+        &self.parameters
+    }
+
+    /// Returns the scalars of the result; none where the function returns nothing.
+    #[must_use]
+    pub fn result(&self) -> &[Kind] {
+        &self.result
+    }
+
+    /// Runs the function on lanes `0..lanes` and returns one column a scalar of the result.
+    ///
+    /// `columns` holds one column for every scalar of every parameter, in order; a column of one value is that value
+    /// in every lane. The result does not depend on the number of threads.
+    ///
+    /// # Errors
+    /// The columns do not fit the parameters, or a loop does not end.
+    pub fn run(
+        &self,
+        columns: &[Column<'_>],
+        lanes: usize,
+        model: &DeviceModel,
+    ) -> Result<Vec<Values>, Stopped> {
+        self.check(columns, lanes)?;
+        let width = self.results.len();
+        let blocks = lanes.div_ceil(LANES);
+        let mut words = vec![[0; LANES]; blocks * width];
+        let run = |machine: &mut Machine<'_>, block: usize, words: &mut [[u32; LANES]]| {
+            for (&register, column) in self.arguments.iter().zip(columns) {
+                column.load(block * LANES, lanes, machine.column(register));
+                if column.kind() == Kind::F32 {
+                    model.round(machine.column(register));
+                }
+            }
+            machine.run(&self.body, self.steps)?;
+            for (&register, words) in self.results.iter().zip(words) {
+                for (word, lane) in words.iter_mut().zip(machine.column(register)) {
+                    *word = lane.get();
+                }
+            }
+            Ok::<(), machine::Endless>(())
+        };
+        // A function without a result runs too, for the loop that it may not leave.
+        let mut nothing = vec![(); blocks];
+        let outputs: Vec<&mut [[u32; LANES]]> = if width == 0 {
+            nothing.iter_mut().map(|()| &mut [][..]).collect()
+        } else {
+            words.chunks_exact_mut(width).collect()
+        };
+        let endless = outputs
+            .into_par_iter()
+            .enumerate()
+            .with_min_len(16)
+            .map_init(|| self.machine(model), |machine, (block, words)| run(machine, block, words).err())
+            .find_map_first(core::convert::identity);
+        if let Some(endless) = endless {
+            return Err(Stopped::Endless { span: endless.span, steps: self.steps });
+        }
+        let column = |(index, &kind): (usize, &Kind)| {
+            let words = words.iter().skip(index).step_by(width).flatten().take(lanes);
+            Values::collect(kind, words.copied())
+        };
+        Ok(self.result.iter().enumerate().map(column).collect())
+    }
+
+    /// The registers of a thread, constants filled in.
+    fn machine<'a>(&self, model: &'a DeviceModel) -> Machine<'a> {
+        let machine = Machine::new(self.registers, model);
+        for &(register, constant) in &self.constants {
+            machine.fill(register, constant.bits);
+            if constant.float {
+                model.round(machine.column(register));
+            }
+        }
+        machine
+    }
+
+    /// Says which column does not fit.
+    fn check(&self, columns: &[Column<'_>], lanes: usize) -> Result<(), Stopped> {
+        let wanted = self.parameters.iter().flat_map(|parameter| &parameter.components).count();
+        if columns.len() != wanted {
+            let message =
+                format!("the parameters have {wanted} scalars, but there are {} columns", columns.len());
+            return Err(Stopped::Arguments(message));
+        }
+        let scalars =
+            self.parameters.iter().flat_map(|p| p.components.iter().map(move |&kind| (&p.name, kind)));
+        for ((name, kind), column) in scalars.zip(columns) {
+            if column.kind() != kind {
+                let message = format!("parameter `{name}` wants {kind}, not {}", column.kind());
+                return Err(Stopped::Arguments(message));
+            }
+            if (column.len() == 1 || column.len() == lanes).not() {
+                let message = format!("parameter `{name}` has {} values for {lanes} lanes", column.len());
+                return Err(Stopped::Arguments(message));
+            }
+        }
+        Ok(())
+    }
+}
