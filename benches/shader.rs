@@ -22,7 +22,7 @@ fn compile(function: &str) -> Program {
 
 fn columns() -> Vec<Vec<f32>> {
     let scene = Scene::all().into_iter().find(|scene| scene.name == "oblique").expect("a built-in scene");
-    let mut columns = vec![Vec::with_capacity(SAMPLES); 9];
+    let mut columns = vec![Vec::new(); 9];
     for footprint in scene.footprints().step_by(11).take(SAMPLES) {
         let Footprint::<f32> { position, dpdx, dpdy } = footprint.cast();
         let values = [position, dpdx, dpdy].into_iter().flat_map(|vector| vector.to_array());

@@ -49,10 +49,6 @@ pub trait Arithmetic: Copy + Debug + Default + Send + Sync + 'static {
     /// Whether a product that is added to or subtracted from something is rounded only after that.
     const FUSES: bool = false;
 
-    /// Whether [`round`](Self::round) is the one that this trait provides, so that an `f32` operation needs no more
-    /// rounding; saves time where it is said.
-    const IS_SINGLE: bool = false;
-
     /// Rounds a result of 53 bits to what the arithmetic can hold.
     ///
     /// 53 bits are more than twice 24 and two, so that rounding the `f64` sum, product, quotient or root of two `f32`
@@ -81,7 +77,6 @@ pub struct Single;
 
 impl Arithmetic for Single {
     const NAME: &'static str = "accurate";
-    const IS_SINGLE: bool = true;
 }
 
 /// A sine with the least accuracy that WGSL permits.
@@ -94,7 +89,6 @@ pub struct CoarseSine;
 
 impl Arithmetic for CoarseSine {
     const NAME: &'static str = "coarse sine";
-    const IS_SINGLE: bool = true;
     fn sin(x: f32) -> f32 {
         (sin_f32(x) * 1024.0).round_ties_even() / 1024.0
     }
@@ -111,7 +105,6 @@ pub struct ReducedSine;
 
 impl Arithmetic for ReducedSine {
     const NAME: &'static str = "reduced sine";
-    const IS_SINGLE: bool = true;
     fn sin(x: f32) -> f32 {
         sin_f32(Self::reduced(x))
     }
@@ -180,7 +173,6 @@ pub struct Fused;
 
 impl Arithmetic for Fused {
     const NAME: &'static str = "fused";
-    const IS_SINGLE: bool = true;
     const FUSES: bool = true;
 }
 

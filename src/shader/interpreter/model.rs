@@ -20,28 +20,26 @@ pub struct DeviceModel {
 impl DeviceModel {
     /// The reference semantics R32: IEEE `f32` in the order of the source, sine, log2 and exp2 correctly rounded, the
     /// other transcendentals those of libm in `f64`, rounded once.
-    pub const ACCURATE: Self = Self::of::<Single>();
+    pub const ACCURATE: Self = Self { round: None, ..Self::of::<Single>() };
+    /// A sine and a cosine with the least accuracy that WGSL permits: [`CoarseSine`].
+    pub const COARSE_SINE: Self = Self { round: None, ..Self::of::<CoarseSine>() };
+    /// A sine and a cosine of an argument that is reduced in `f32`: [`ReducedSine`].
+    pub const REDUCED_SINE: Self = Self { round: None, ..Self::of::<ReducedSine>() };
+    /// Every `f32` is a binary16: [`Half`].
+    pub const HALF: Self = Self::of::<Half>();
+    /// Subnormal results become zero: [`FlushToZero`].
+    pub const FLUSH_TO_ZERO: Self = Self::of::<FlushToZero>();
+    /// A product that enters a sum is not rounded before: [`Fused`].
+    pub const FUSED: Self = Self { round: None, ..Self::of::<Fused>() };
 
     /// The reference and every model of [`emulated`](crate::threshold::emulated).
-    pub const ALL: [Self; 6] = [
-        Self::ACCURATE,
-        Self::of::<CoarseSine>(),
-        Self::of::<ReducedSine>(),
-        Self::of::<Half>(),
-        Self::of::<FlushToZero>(),
-        Self::of::<Fused>(),
-    ];
+    pub const ALL: [Self; 6] =
+        [Self::ACCURATE, Self::COARSE_SINE, Self::REDUCED_SINE, Self::HALF, Self::FLUSH_TO_ZERO, Self::FUSED];
 
     /// Makes a model of an arithmetic.
     #[must_use]
     pub const fn of<A: Arithmetic>() -> Self {
-        Self {
-            name: A::NAME,
-            contracts: A::FUSES,
-            round: if A::IS_SINGLE { None } else { Some(round::<A>) },
-            sin: sin::<A>,
-            cos: cos::<A>,
-        }
+        Self { name: A::NAME, contracts: A::FUSES, round: Some(round::<A>), sin: sin::<A>, cos: cos::<A> }
     }
 
     /// Returns the name in tables and figures.
