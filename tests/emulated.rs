@@ -205,7 +205,7 @@ fn broken_scenes<A: Arithmetic>() -> [Vec<&'static str>; 2] {
             let mut rng = seed::rng(&format!("emulated.{name}.{}", scene.name), 0);
             let scenes = std::slice::from_ref(scene);
             let samples = sample::independent(subject, scenes, SAMPLES, DRAWS_A_PLACE, &mut rng);
-            let chi = chi_square(samples.iter().map(threshold));
+            let chi = chi_square(samples.iter().map(|sample| threshold(&sample.footprint)));
             println!(
                 "{:14} {name} {:8} n {} {:.2}",
                 A::NAME,

@@ -1,14 +1,14 @@
-//! Inputs of the claims: footprints of real surfaces, drawn by rule from the claim's name.
+//! Inputs of the claims: fragments of real surfaces, drawn by rule from the claim's name.
 //!
 //! Neighbouring pixels share cells and so thresholds; where a claim needs independent values, no two of its
-//! footprints touch the same cell.
+//! fragments touch the same cell. A fragment is one place in all its coordinates, so that a subject may hash any of them.
 
 use super::subject::{Precision, Subject};
 use super::tolerance::{DRAWS_A_SAMPLE, PLACEMENT};
-use crate::scene::Scene;
+use crate::scene::{Camera, Fragment, Rectangle, Scene};
 use crate::stats::seed::uniform01;
 use crate::threshold::footprint::Footprint;
-use glam::{DVec3, dvec2, dvec3};
+use glam::{DVec2, DVec3, dvec2, dvec3};
 use rand::rngs::Xoshiro256PlusPlus;
 use std::collections::HashSet;
 
@@ -18,22 +18,75 @@ pub fn placement(rng: &mut Xoshiro256PlusPlus) -> DVec3 {
     dvec3(coordinate(), coordinate(), coordinate())
 }
 
-/// Draws a footprint of a scene: a uniform place in the image, and a surface that is seen there.
-pub fn footprint(scene: &Scene, rng: &mut Xoshiro256PlusPlus) -> Footprint<f64> {
+/// A fragment with the camera and the surface that it was made of, so that it can be moved.
+#[derive(Clone, Copy, Debug)]
+pub struct Sighting<'a> {
+    /// What is seen.
+    pub fragment: Fragment,
+    camera: Camera,
+    surface: &'a Rectangle,
+}
+
+/// Draws a sighting in a scene: a uniform place in the image, and a surface that is seen there.
+pub fn sighting<'a>(scene: &'a Scene, rng: &mut Xoshiro256PlusPlus) -> Sighting<'a> {
     let size = scene.camera.size();
     loop {
         let pixel = dvec2(uniform01(rng) * size.x, uniform01(rng) * size.y);
-        let surface = (uniform01(rng) * scene.surfaces.len() as f64) as usize;
-        if let Some(found) = scene.surfaces[surface].footprint(&scene.camera, pixel) {
-            return found;
+        let index = (uniform01(rng) * scene.surfaces.len() as f64) as usize;
+        if let Some(fragment) = scene.fragment(index, pixel) {
+            return Sighting { fragment, camera: scene.camera, surface: &scene.surfaces[index] };
         }
     }
 }
 
-/// Moves a footprint, and rounds it to a precision.
+impl Sighting<'_> {
+    /// The same place of the world, `by` further in the object's own coordinates; rounded to a precision.
+    #[must_use]
+    pub fn placed(self, by: DVec3, precision: Precision) -> Self {
+        Self { fragment: placed(&self.fragment, by, precision), ..self }
+    }
+
+    /// The point that is `by` away, of the object and of the world, seen by the same camera with the same derivatives;
+    /// rounded to a precision.
+    ///
+    /// A point that is not in front of the camera has a pixel of NaN.
+    #[must_use]
+    pub fn moved(self, by: DVec3, precision: Precision) -> Self {
+        let world = self.fragment.world + by;
+        let fragment = Fragment {
+            world,
+            eye: self.camera.to_eye(world),
+            pixel: self.camera.project(world).unwrap_or(DVec2::NAN),
+            texcoord: self.surface.texcoord(world),
+            ..self.fragment
+        };
+        Self { fragment: placed(&fragment, by, precision), ..self }
+    }
+
+    /// The same point seen by a camera that has come closer, along the line of sight, `times` times as near.
+    #[must_use]
+    pub fn nearer(self, times: f64) -> Self {
+        let Footprint { position, dpdx, dpdy } = self.fragment.footprint;
+        let to_eye = self.camera.eye - self.fragment.world;
+        Self {
+            fragment: Fragment {
+                footprint: Footprint { position, dpdx: dpdx / times, dpdy: dpdy / times },
+                eye: self.fragment.eye / times,
+                lod: self.fragment.lod - libm::log2(times),
+                ..self.fragment
+            },
+            camera: Camera { eye: self.fragment.world + to_eye / times, ..self.camera },
+            ..self
+        }
+    }
+}
+
+/// Moves a fragment in object coordinates alone, and rounds its footprint to a precision.
 #[must_use]
-pub fn moved(footprint: &Footprint<f64>, by: DVec3, precision: Precision) -> Footprint<f64> {
-    precision.round(&Footprint { position: footprint.position + by, ..*footprint })
+pub fn placed(fragment: &Fragment, by: DVec3, precision: Precision) -> Fragment {
+    let footprint = fragment.footprint;
+    let footprint = precision.round(&Footprint { position: footprint.position + by, ..footprint });
+    Fragment { footprint, ..*fragment }
 }
 
 /// The cells that earlier samples have used.
@@ -41,15 +94,15 @@ pub fn moved(footprint: &Footprint<f64>, by: DVec3, precision: Precision) -> Foo
 pub struct UsedCells(HashSet<[i64; 3]>);
 
 impl UsedCells {
-    /// Claims the cells of a group of footprints that belong together; returns false, and claims none, if an earlier
-    /// group has one of them.
+    /// Claims the cells of a group of fragments or footprints that belong together; returns false, and claims none, if an
+    /// earlier group has one of them.
     ///
     /// Cells of different octaves with equal coordinates count as one, since the paper's hash cannot tell them apart.
-    pub fn claim(&mut self, subject: &Subject<'_>, group: &[Footprint<f64>]) -> bool {
+    pub fn claim<F: Copy + Into<Fragment>>(&mut self, subject: &Subject<'_>, group: &[F]) -> bool {
         let cells: Vec<[i64; 3]> = group
             .iter()
-            .flat_map(|footprint| {
-                let nominal = subject.nominal(footprint);
+            .flat_map(|&fragment| {
+                let nominal = subject.nominal(&fragment.into().footprint);
                 [nominal.coarse_cell, nominal.fine_cell].map(|cell| cell.to_array().map(|c| c as i64))
             })
             .collect();
@@ -61,7 +114,7 @@ impl UsedCells {
     }
 }
 
-/// Draws `n` footprints of the scenes in turn, no two of which touch the same cell, with the object at a new place
+/// Draws `n` fragments of the scenes in turn, no two of which touch the same cell, with the object at a new place
 /// every `draws_a_place` draws.
 ///
 /// Returns fewer when the scenes have not enough cells.
@@ -72,7 +125,7 @@ pub fn independent(
     n: usize,
     draws_a_place: usize,
     rng: &mut Xoshiro256PlusPlus,
-) -> Vec<Footprint<f64>> {
+) -> Vec<Fragment> {
     let mut samples = Vec::with_capacity(n);
     let mut used = UsedCells::default();
     let mut place = DVec3::ZERO;
@@ -84,7 +137,7 @@ pub fn independent(
             place = placement(rng);
         }
         let scene = &scenes[draw % scenes.len()];
-        let sample = moved(&footprint(scene, rng), place, subject.precision);
+        let sample = sighting(scene, rng).placed(place, subject.precision).fragment;
         if used.claim(subject, &[sample]) {
             samples.push(sample);
         }
@@ -112,8 +165,10 @@ mod tests {
         let mut rng = seed::rng("sample.independent", 0);
         let samples = independent(&subject, &general_scenes(), 5000, 1000, &mut rng);
         assert_eq!(samples.len(), 5000);
-        let cells: HashSet<_> =
-            samples.iter().map(|s| subject.nominal(s).coarse_cell.to_array().map(|c| c as i64)).collect();
+        let cells: HashSet<_> = samples
+            .iter()
+            .map(|s| subject.nominal(&s.footprint).coarse_cell.to_array().map(|c| c as i64))
+            .collect();
         assert_eq!(cells.len(), 5000);
     }
 
@@ -124,5 +179,35 @@ mod tests {
         let mut rng = seed::rng("sample.tiny", 0);
         let samples = independent(&subject, &tiny, 1000, 1000, &mut rng);
         assert!(!samples.is_empty() && samples.len() < 1000, "{}", samples.len());
+    }
+
+    #[test]
+    fn a_moved_fragment_is_seen_where_its_point_is() {
+        let scene = &general_scenes()[0];
+        let mut rng = seed::rng("sample.moved", 0);
+        for _ in 0..100 {
+            let precision = Precision::F64;
+            let here = sighting(scene, &mut rng).placed(placement(&mut rng), precision);
+            let there = here.moved(here.fragment.footprint.dpdx * 0.25, precision).fragment;
+            let here = here.fragment;
+            assert!((there.pixel - here.pixel - dvec2(0.25, 0.0)).length() < 1e-3);
+            let motion = there.footprint.position - here.footprint.position;
+            assert!((there.world - here.world - motion).length() < 1e-12);
+            assert!(((there.eye - here.eye).length() - motion.length()).abs() < 1e-12);
+            assert!(there.texcoord != here.texcoord);
+        }
+    }
+
+    #[test]
+    fn what_is_twice_as_near_is_twice_as_large() {
+        let scene = &general_scenes()[0];
+        let mut rng = seed::rng("sample.nearer", 0);
+        let far = sighting(scene, &mut rng);
+        let near = far.nearer(2.0);
+        let exact = near.surface.fragment(&near.camera, far.fragment.pixel).unwrap();
+        assert!((exact.world - far.fragment.world).length() < 1e-12);
+        assert!((exact.footprint.dpdx - near.fragment.footprint.dpdx).length() < 1e-14);
+        assert!((exact.eye - near.fragment.eye).length() < 1e-12);
+        assert!((exact.lod - near.fragment.lod).abs() < 1e-9);
     }
 }

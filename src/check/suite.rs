@@ -219,11 +219,9 @@ mod tests {
     #[test]
     fn a_subject_that_breaks_is_unavailable_from_there_on() {
         let asks = claim("asks", |subject, _| {
-            let fragment = crate::check::sample::footprint(
-                &crate::scene::Scene::all()[0],
-                &mut crate::stats::seed::rng("suite.tests", 0),
-            );
-            let threshold = subject.threshold(fragment);
+            let scene = &crate::scene::Scene::all()[0];
+            let rng = &mut crate::stats::seed::rng("suite.tests", 0);
+            let threshold = subject.threshold(crate::check::sample::sighting(scene, rng).fragment);
             Ok(Trial::without(Conclusion::Exact { holds: threshold.is_some() }, "no threshold"))
         });
         let broken =

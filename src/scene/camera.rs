@@ -1,6 +1,7 @@
-//! A pinhole camera: from a pixel to a ray and to how the ray turns from pixel to pixel.
+//! A pinhole camera: from a pixel to a ray and to how the ray turns from pixel to pixel, and back from a point to its
+//! pixel.
 
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, dvec3};
 
 /// A pinhole camera in object coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,6 +57,25 @@ impl Camera {
         Ray { origin: self.eye, direction, direction_dx: self.direction_dx, direction_dy: self.direction_dy }
     }
 
+    /// Returns a point in eye coordinates: x to the right, y down, z along the line of sight, in object units.
+    #[must_use]
+    pub fn to_eye(&self, point: DVec3) -> DVec3 {
+        let to = point - self.eye;
+        let [right, down] = [self.direction_dx, self.direction_dy].map(DVec3::normalize);
+        dvec3(to.dot(right), to.dot(down), to.dot(self.forward))
+    }
+
+    /// Returns where a point is seen, in pixels from the upper left corner, inside the image or not; `None` unless the
+    /// point is in front of the camera.
+    #[must_use]
+    pub fn project(&self, point: DVec3) -> Option<DVec2> {
+        let to = point - self.eye;
+        let depth = to.dot(self.forward);
+        let along = |turn: DVec3| to.dot(turn) / (depth * turn.length_squared());
+        let centred = DVec2::new(along(self.direction_dx), along(self.direction_dy));
+        (depth > 0.0).then(|| centred + self.size() / 2.0)
+    }
+
     /// Returns width and height in pixels.
     #[must_use]
     pub fn size(&self) -> DVec2 {
@@ -66,7 +86,7 @@ impl Camera {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use glam::{dvec2, dvec3};
+    use glam::dvec2;
 
     #[test]
     fn the_middle_of_the_image_looks_forward_and_y_runs_down() {
@@ -74,5 +94,17 @@ mod tests {
         assert_eq!(camera.ray(dvec2(100.0, 50.0)).direction, DVec3::NEG_Z);
         let corner = camera.ray(dvec2(0.0, 0.0)).direction;
         assert!((corner - dvec3(-1.0, 0.5, -1.0)).length() < 1e-15, "{corner}");
+    }
+
+    #[test]
+    fn a_point_on_a_ray_is_seen_at_its_pixel() {
+        let camera = Camera::look_at(dvec3(1.0, 2.0, 3.0), dvec3(-0.3, 0.2, 0.1), DVec3::Y, 0.4, [200, 100]);
+        let pixel = dvec2(31.7, 80.2);
+        let ray = camera.ray(pixel);
+        let point = ray.origin + ray.direction * 2.5;
+        assert!((camera.project(point).unwrap() - pixel).length() < 1e-10);
+        assert!((camera.to_eye(point).z - 2.5).abs() < 1e-12);
+        assert!(camera.to_eye(point).x < 0.0 && camera.to_eye(point).y > 0.0);
+        assert_eq!(camera.project(ray.origin - ray.direction), None);
     }
 }

@@ -1,8 +1,8 @@
 //! The built-in scenes.
 
-use super::{Camera, Rectangle};
+use super::{Camera, Fragment, Rectangle};
 use crate::threshold::footprint::Footprint;
-use glam::{DVec3, dvec2, dvec3};
+use glam::{DVec2, DVec3, dvec2, dvec3};
 
 /// A camera and what stands in front of it. Surfaces do not hide each other: each is seen as if alone, as alpha
 /// tested layers are.
@@ -32,9 +32,8 @@ impl Scene {
     /// Returns the footprints of all pixels with analytic derivatives: row by row, and at each pixel surface by
     /// surface.
     pub fn footprints(&self) -> impl Iterator<Item = Footprint<f64>> + '_ {
-        self.pixels().flat_map(move |[x, y]| {
-            let centre = dvec2(f64::from(x) + 0.5, f64::from(y) + 0.5);
-            self.surfaces.iter().filter_map(move |surface| surface.footprint(&self.camera, centre))
+        self.pixels().flat_map(move |pixel| {
+            self.surfaces.iter().filter_map(move |surface| surface.footprint(&self.camera, centre(pixel)))
         })
     }
 
@@ -44,6 +43,36 @@ impl Scene {
         self.pixels().flat_map(move |pixel| {
             self.surfaces.iter().filter_map(move |surface| surface.quad_footprint(&self.camera, pixel))
         })
+    }
+
+    /// Returns the fragment of one surface at a point of the image (pixels from the upper left corner), in frame 0; `None`
+    /// where that surface is not seen or does not exist.
+    #[must_use]
+    pub fn fragment(&self, surface: usize, pixel: DVec2) -> Option<Fragment> {
+        let found = self.surfaces.get(surface)?.fragment(&self.camera, pixel)?;
+        let ray = self.camera.ray(pixel);
+        let nearer = self.surfaces[..surface].iter().filter(|nearer| nearer.hit(&ray).is_some()).count();
+        Some(Fragment { layer: nearer as u32, ..found })
+    }
+
+    /// Returns the fragments of all pixels in the order of [`Scene::footprints`].
+    pub fn fragments(&self) -> impl Iterator<Item = Fragment> + '_ {
+        self.pixels().flat_map(move |pixel| self.fragments_at(pixel))
+    }
+
+    /// Returns the fragments of all pixels with footprints as a GPU finds them, in the order of
+    /// [`Scene::quad_footprints`].
+    pub fn quad_fragments(&self) -> impl Iterator<Item = Fragment> + '_ {
+        self.pixels().flat_map(move |pixel| {
+            self.surfaces.iter().enumerate().filter_map(move |(index, surface)| {
+                let footprint = surface.quad_footprint(&self.camera, pixel)?.cast();
+                Some(Fragment { footprint, ..self.fragment(index, centre(pixel))? })
+            })
+        })
+    }
+
+    fn fragments_at(&self, pixel: [u32; 2]) -> impl Iterator<Item = Fragment> + '_ {
+        (0..self.surfaces.len()).filter_map(move |surface| self.fragment(surface, centre(pixel)))
     }
 
     /// Returns the scene seen with another number of pixels over the same field of view.
@@ -65,6 +94,11 @@ impl Scene {
         let [width, height] = self.camera.resolution;
         (0..height).flat_map(move |y| (0..width).map(move |x| [x, y]))
     }
+}
+
+/// The centre of a pixel.
+fn centre([x, y]: [u32; 2]) -> DVec2 {
+    dvec2(f64::from(x) + 0.5, f64::from(y) + 0.5)
 }
 
 /// A direction at no special angle to any axis; its components have no simple ratio.
@@ -191,5 +225,17 @@ mod tests {
             assert!((quad.dpdx.as_dvec3() - analytic.dpdx).length() < 0.01 * analytic.dpdx.length());
             assert!((quad.dpdy.as_dvec3() - analytic.dpdy).length() < 0.01 * analytic.dpdy.length());
         }
+    }
+
+    #[test]
+    fn layers_count_what_is_nearer_along_the_same_line_of_sight() {
+        let scene = cards().with_resolution([64, 48]);
+        let fragments: Vec<Fragment> = scene.fragments().collect();
+        assert!(fragments.iter().map(|fragment| fragment.footprint).eq(scene.footprints()));
+        for pair in fragments.windows(2).filter(|pair| pair[0].pixel == pair[1].pixel) {
+            assert!(pair[0].eye.z < pair[1].eye.z && pair[0].layer + 1 == pair[1].layer);
+        }
+        assert!(fragments.iter().any(|fragment| fragment.layer == 7));
+        assert!(scene.quad_fragments().map(|fragment| fragment.footprint.cast()).eq(scene.quad_footprints()));
     }
 }

@@ -66,12 +66,9 @@ impl Raster {
 }
 
 fn project(camera: &Camera, position: DVec3, shift: DVec2) -> Option<Vertex> {
-    let to = position - camera.eye;
-    let depth = to.dot(camera.forward);
-    let along = |turn: DVec3| to.dot(turn) / (depth * turn.length_squared());
-    let pixel = DVec2::new(along(camera.direction_dx), along(camera.direction_dy)) + camera.size() / 2.0;
-    (depth > 0.0).then(|| Vertex {
-        pixel: (pixel + shift).as_vec2(),
+    let depth = (position - camera.eye).dot(camera.forward);
+    Some(Vertex {
+        pixel: (camera.project(position)? + shift).as_vec2(),
         inverse_depth: (1.0 / depth) as f32,
         position: position.as_vec3(),
     })

@@ -1,8 +1,12 @@
 //! A flat rectangle: wall, floor, fence panel and card are all this.
 
+use super::Fragment;
 use super::camera::{Camera, Ray};
 use crate::threshold::footprint::Footprint;
 use glam::{DVec2, DVec3, dvec2};
+
+/// Texels along each side of the alpha map that covers a rectangle: a common size for foliage.
+const TEXELS: f64 = 1024.0;
 
 /// A rectangle in object coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,6 +46,35 @@ impl Rectangle {
             dpdx: derivative(ray.direction_dx),
             dpdy: derivative(ray.direction_dy),
         })
+    }
+
+    /// Returns the fragment at a point of the image (pixels from the upper left corner), in frame 0 and layer 0, of an
+    /// object whose coordinates are those of the world; `None` where the rectangle is not seen.
+    #[must_use]
+    pub fn fragment(&self, camera: &Camera, pixel: DVec2) -> Option<Fragment> {
+        let footprint = self.footprint(camera, pixel)?;
+        let world = footprint.position;
+        // Texels from one pixel to the next: a texture coordinate is linear on the surface.
+        let texels = |along: DVec3| ((self.texcoord(world + along) - self.texcoord(world)) * TEXELS).length();
+        Some(Fragment {
+            footprint,
+            world,
+            eye: camera.to_eye(world),
+            pixel,
+            texcoord: self.texcoord(world),
+            lod: libm::log2(texels(footprint.dpdx).max(texels(footprint.dpdy))),
+            frame: 0,
+            layer: 0,
+        })
+    }
+
+    /// Returns the texture coordinates of a point: from (0, 0) in the corner behind both half sides to (1, 1) in the one
+    /// before them.
+    #[must_use]
+    pub fn texcoord(&self, point: DVec3) -> DVec2 {
+        let from_centre = point - self.centre;
+        let along = |half: DVec3| 0.5 + 0.5 * from_centre.dot(half) / half.length_squared();
+        dvec2(along(self.half_u), along(self.half_v))
     }
 
     /// Returns the footprint of a pixel as a GPU finds it: `f32` positions, and their differences within the aligned
@@ -109,5 +142,21 @@ mod tests {
         assert!(small.footprint(&camera, dvec2(1.0, 1.0)).is_none());
         let behind = Rectangle { centre: dvec3(0.6, -0.4, 8.0), ..rectangle };
         assert!(behind.footprint(&camera, dvec2(32.0, 32.0)).is_none());
+    }
+
+    #[test]
+    fn a_fragment_is_one_place_in_every_coordinate() {
+        let (camera, rectangle) = tilted();
+        let pixel = dvec2(20.0, 41.0);
+        let here = rectangle.fragment(&camera, pixel).unwrap();
+        assert_eq!(Some(here.footprint), rectangle.footprint(&camera, pixel));
+        assert!((camera.project(here.world).unwrap() - pixel).length() < 1e-10);
+        let [u, v] = (here.texcoord * 2.0 - 1.0).to_array();
+        let point = rectangle.centre + rectangle.half_u * u + rectangle.half_v * v;
+        assert!((point - here.world).length() < 1e-12);
+        // Twice as near, twice as large: one level of detail less.
+        let near = Camera { eye: here.world.midpoint(camera.eye), ..camera };
+        let nearer = rectangle.fragment(&near, pixel).unwrap();
+        assert!((here.lod - nearer.lod - 1.0).abs() < 1e-9 && (here.eye * 0.5 - nearer.eye).length() < 1e-12);
     }
 }

@@ -2,11 +2,11 @@
 
 use super::uniform::reject_outsiders;
 use super::{Attempt, Claim, Promise, Trial};
-use crate::check::sample::{UsedCells, footprint, general_scenes, moved, placement};
+use crate::check::sample::{Sighting, UsedCells, general_scenes, placement, sighting};
 use crate::check::tolerance::{DRAWS_A_PLACE, DRAWS_A_SAMPLE, FAR_PAIRS, NEIGHBOUR_PAIRS, PAIR_BINS};
 use crate::check::{Draw, Evidence, Subject, Verdict};
+use crate::scene::Fragment;
 use crate::stats::{chi_square, correlation};
-use crate::threshold::footprint::Footprint;
 use glam::{DVec3, dvec3};
 use rand::rngs::Xoshiro256PlusPlus;
 
@@ -50,14 +50,15 @@ pub const OCTAVES: Claim = Claim {
     run: octaves,
 };
 
-/// Makes a pair of footprints out of one, whose thresholds should have nothing to do with each other.
-type Pairing<'a> = Box<dyn Fn(Footprint<f64>) -> [Footprint<f64>; 2] + 'a>;
+/// Makes a pair of fragments out of one, whose thresholds should have nothing to do with each other.
+type Pairing<'a> = Box<dyn Fn(Sighting<'_>) -> [Fragment; 2] + 'a>;
 
 /// The second of a pair lies `cells` coarse cells from the first, wherever the surface goes.
 fn apart<'a>(subject: &'a Subject<'_>, cells: DVec3) -> Pairing<'a> {
     Box::new(move |first| {
-        let side = dvec3(1.0, 1.0, 1.0) / DVec3::from_array(subject.nominal(&first).coarse_scale);
-        [first, moved(&first, cells * side, subject.precision)]
+        let nominal = subject.nominal(&first.fragment.footprint);
+        let side = dvec3(1.0, 1.0, 1.0) / DVec3::from_array(nominal.coarse_scale);
+        [first.fragment, first.moved(cells * side, subject.precision).fragment]
     })
 }
 
@@ -96,12 +97,13 @@ fn diagonals(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
 fn across_zero(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     let pairing = |axis: usize| -> Pairing<'_> {
         Box::new(move |found| {
-            let side = 1.0 / subject.nominal(&found).coarse_scale[axis];
-            let within = found.position[axis] / side;
+            let footprint = found.fragment.footprint;
+            let side = 1.0 / subject.nominal(&footprint).coarse_scale[axis];
+            let within = footprint.position[axis] / side;
             // From the last cell below zero to the first one above.
-            let below = (within - within.floor() - 1.0) * side - found.position[axis];
-            let first = moved(&found, DVec3::AXES[axis] * below, subject.precision);
-            [first, moved(&first, DVec3::AXES[axis] * side, subject.precision)]
+            let below = (within - within.floor() - 1.0) * side - footprint.position[axis];
+            let first = found.placed(DVec3::AXES[axis] * below, subject.precision);
+            [first.fragment, first.moved(DVec3::AXES[axis] * side, subject.precision).fragment]
         })
     };
     let rng = draw.rng(ACROSS_ZERO.id);
@@ -115,23 +117,18 @@ fn across_zero(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
 }
 
 fn octaves(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
-    let finer = |found: &Footprint<f64>, times: f64| Footprint {
-        position: found.position,
-        dpdx: found.dpdx / times,
-        dpdy: found.dpdy / times,
-    };
     let half_the_size: Pairing<'_> = Box::new(|found| {
-        let half = moved(&finer(&found, 2.0), -0.5 * found.position, subject.precision);
-        [found, half]
+        let to_half = -0.5 * found.fragment.footprint.position;
+        [found.fragment, found.nearer(2.0).placed(to_half, subject.precision).fragment]
     });
     // At the same place two octaves down, where indices are whole multiples of those above.
     let descendant: Pairing<'_> = Box::new(|found| {
-        let below = subject.nominal(&finer(&found, 4.0));
+        let below = subject.nominal(&found.nearer(4.0).fragment.footprint);
         let scale = DVec3::from_array(below.coarse_scale);
         let index = below.coarse_cell;
         let beyond = index - (index / 4.0).floor() * 4.0;
-        let first = moved(&found, -beyond / scale, subject.precision);
-        [first, finer(&first, 4.0)]
+        let first = found.placed(-beyond / scale, subject.precision);
+        [first.fragment, first.nearer(4.0).fragment]
     });
     let rng = draw.rng(OCTAVES.id);
     let seen = "thresholds of two octaves";
@@ -151,7 +148,7 @@ fn independent_pairs(
     let mut tests = Vec::new();
     let mut pooled = vec![0; PAIR_BINS * PAIR_BINS];
     for pairing in pairings {
-        let mut pairs: Vec<Footprint<f64>> = Vec::with_capacity(2 * n);
+        let mut pairs: Vec<Fragment> = Vec::with_capacity(2 * n);
         let mut place = DVec3::ZERO;
         for draw in 0..n * DRAWS_A_SAMPLE {
             if pairs.len() == 2 * n {
@@ -160,8 +157,8 @@ fn independent_pairs(
             if draw % DRAWS_A_PLACE == 0 {
                 place = placement(&mut rng);
             }
-            let found = footprint(&scenes[draw % scenes.len()], &mut rng);
-            let pair = pairing(moved(&found, place, subject.precision));
+            let found = sighting(&scenes[draw % scenes.len()], &mut rng);
+            let pair = pairing(found.placed(place, subject.precision));
             if used.claim(subject, &pair) {
                 pairs.extend(pair);
             }

@@ -2,16 +2,15 @@
 
 use super::uniform::reject_outsiders;
 use super::{Attempt, Claim, Conclusion, Promise, Trial};
-use crate::check::sample::{UsedCells, footprint, moved, placement};
+use crate::check::sample::{UsedCells, placement, sighting};
 use crate::check::tolerance::{
     DRAWS_A_SAMPLE, LAYER_PAIRS, LAYER_SAMPLES, LEAST_LAYER_DISTANCE, PAIR_BINS, PLACEMENT,
 };
 use crate::check::{Draw, Evidence, Subject, Verdict};
-use crate::scene::Scene;
+use crate::scene::{Fragment, Scene};
 use crate::stats::chi_square::{self, ChiSquare};
 use crate::stats::correlation;
 use crate::stats::seed::uniform01;
-use crate::threshold::footprint::Footprint;
 use rand::rngs::Xoshiro256PlusPlus;
 
 /// Pairs of thresholds at the same x and y on two planes of constant z.
@@ -71,13 +70,8 @@ fn parallel(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     ))
 }
 
-/// Footprints in twos, at the same place on two planes of constant z; no two pairs touch the same cell.
-fn samples(
-    subject: &Subject<'_>,
-    wall: &Scene,
-    n: usize,
-    rng: &mut Xoshiro256PlusPlus,
-) -> Vec<Footprint<f64>> {
+/// Fragments in twos, at the same place on two planes of constant z; no two pairs touch the same cell.
+fn samples(subject: &Subject<'_>, wall: &Scene, n: usize, rng: &mut Xoshiro256PlusPlus) -> Vec<Fragment> {
     let place = placement(rng);
     let mut height = || (2.0 * uniform01(rng) - 1.0) * PLACEMENT;
     let near = height();
@@ -93,8 +87,15 @@ fn samples(
         if samples.len() == 2 * n {
             break;
         }
-        let found = footprint(wall, rng);
-        let pair = [near, far].map(|z| moved(&found, place.with_z(z), subject.precision));
+        let found = sighting(wall, rng);
+        // The camera looks along -z, from far enough away that both are seen at the same pixel.
+        let pair = [(near, far), (far, near)].map(|(z, other)| {
+            let mut fragment = found.placed(place.with_z(z), subject.precision).fragment;
+            fragment.world.z += z;
+            fragment.eye.z -= z;
+            fragment.layer = u32::from(other > z);
+            fragment
+        });
         if used.claim(subject, &pair) {
             samples.extend(pair);
         }

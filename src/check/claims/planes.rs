@@ -13,10 +13,9 @@ use crate::check::evidence::ComparedShare;
 use crate::check::sample::placement;
 use crate::check::tolerance::{FRAME_SHIFT, PLANE_HALF_SIDE, RASTER_RESOLUTION, RASTER_SAMPLES, REDRAW};
 use crate::check::{Draw, Evidence, Subject, Verdict};
-use crate::scene::{Camera, Raster, Rectangle};
+use crate::scene::{Camera, Fragment, Raster, Rectangle};
 use crate::stats::poisson_binomial;
 use crate::stats::seed::uniform01;
-use crate::threshold::footprint::Footprint;
 use glam::{DVec2, DVec3, dvec2, dvec3};
 use rand::rngs::Xoshiro256PlusPlus;
 use std::f64::consts::TAU;
@@ -45,8 +44,8 @@ pub const DYADIC: Claim = Claim {
 
 /// One pixel before and after the image moved by a fraction of it.
 struct Seen {
-    before: Footprint<f64>,
-    after: Footprint<f64>,
+    before: Fragment,
+    after: Fragment,
     /// How far apart the two points of the surface are in truth, in object units.
     motion: DVec3,
 }
@@ -143,21 +142,21 @@ fn counts(
 ) -> Counts {
     let samples: Vec<Seen> = (0..n).map(|_| seen(normal, offset, rng)).collect();
     let thresholds =
-        |of: fn(&Seen) -> Footprint<f64>| subject.thresholds(&samples.iter().map(of).collect::<Vec<_>>());
+        |of: fn(&Seen) -> Fragment| subject.thresholds(&samples.iter().map(of).collect::<Vec<_>>());
     let (before, after) = (thresholds(|seen| seen.before), thresholds(|seen| seen.after));
     let is_valid = |threshold: f64| threshold > 0.0 && threshold <= 1.0;
     let mut counts = Counts::default();
     for ((seen, old), new) in samples.iter().zip(before).zip(after) {
         if is_valid(old) && is_valid(new) {
-            let probability = predicted(subject, &seen.before, seen.motion);
+            let probability = predicted(subject, &seen.before.footprint, seen.motion);
             counts.valid += 1;
             counts.mean += probability;
             counts.variance += probability * (1.0 - probability);
             counts.redrawn += usize::from((old - new).abs() > REDRAW);
         } else {
-            let (footprint, threshold) = if is_valid(old) { (&seen.after, new) } else { (&seen.before, old) };
+            let (fragment, threshold) = if is_valid(old) { (&seen.after, new) } else { (&seen.before, old) };
             counts.invalid += 1;
-            counts.first_invalid.get_or_insert_with(|| describe(footprint, threshold));
+            counts.first_invalid.get_or_insert_with(|| describe(&fragment.footprint, threshold));
         }
     }
     counts
@@ -195,13 +194,12 @@ fn attempt(normal: usize, offset: f64, rng: &mut Xoshiro256PlusPlus) -> Option<S
     let pixel = [between(0.0, f64::from(width)) as u32, between(0.0, f64::from(height)) as u32];
     let turn = between(0.0, TAU);
     let shift = dvec2(libm::cos(turn), libm::sin(turn)) * FRAME_SHIFT;
-    let rasterised =
-        |shift: DVec2| Some(Raster::new(&camera, &rectangle, shift)?.footprint(pixel)?.cast::<f64>());
     let seen_at = dvec2(f64::from(pixel[0]) + 0.5, f64::from(pixel[1]) + 0.5);
-    let point = |pixel: DVec2| Some(rectangle.footprint(&camera, pixel)?.position);
-    Some(Seen {
-        before: rasterised(DVec2::ZERO)?,
-        after: rasterised(shift)?,
-        motion: point(seen_at - shift)? - point(seen_at)?,
-    })
+    let rasterised = |shift: DVec2| {
+        let footprint = Raster::new(&camera, &rectangle, shift)?.footprint(pixel)?.cast();
+        let exact = rectangle.fragment(&camera, seen_at - shift)?;
+        Some(Fragment { footprint, pixel: seen_at, ..exact })
+    };
+    let (before, after) = (rasterised(DVec2::ZERO)?, rasterised(shift)?);
+    Some(Seen { before, after, motion: after.world - before.world })
 }

@@ -1,10 +1,10 @@
 //! The range of the threshold, on every surface, with derivatives as they are and as a GPU takes them.
 
 use super::{Attempt, Claim, Conclusion, Promise, Trial, detectable_share};
-use crate::check::sample::{moved, placement};
+use crate::check::sample::{placed, placement};
 use crate::check::tolerance::RANGE_RESOLUTION;
 use crate::check::{Draw, Evidence, Subject, Verdict};
-use crate::scene::Scene;
+use crate::scene::{Fragment, Scene};
 use crate::threshold::footprint::Footprint;
 
 /// Every threshold is a number in (0, 1], so that alpha 0 never passes and alpha 1 always does.
@@ -24,10 +24,10 @@ fn range(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     for scene in Scene::all() {
         let scene = scene.with_resolution(RANGE_RESOLUTION);
         let place = placement(&mut rng);
-        let mut footprints: Vec<Footprint<f64>> =
-            scene.footprints().map(|footprint| moved(&footprint, place, subject.precision)).collect();
-        footprints.extend(scene.quad_footprints().map(|footprint| footprint.cast::<f64>()));
-        let thresholds = subject.thresholds(&footprints);
+        let mut fragments: Vec<Fragment> =
+            scene.fragments().map(|fragment| placed(&fragment, place, subject.precision)).collect();
+        fragments.extend(scene.quad_fragments());
+        let thresholds = subject.thresholds(&fragments);
         let bad = |threshold: f64| !(threshold > 0.0 && threshold <= 1.0);
         let count = thresholds.iter().filter(|&&threshold| bad(threshold)).count();
         if let Some(first) = thresholds.iter().position(|&threshold| bad(threshold)) {
@@ -35,7 +35,7 @@ fn range(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
             seen.push(format!(
                 "{}: {share:.1} %, first {}",
                 scene.name,
-                describe(&footprints[first], thresholds[first])
+                describe(&fragments[first].footprint, thresholds[first])
             ));
         }
         n += thresholds.len();

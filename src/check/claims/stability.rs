@@ -3,7 +3,7 @@
 use super::uniform::reject_outsiders;
 use super::{Attempt, Claim, Conclusion, Promise, Trial};
 use crate::check::evidence::ComparedShare;
-use crate::check::sample::{footprint, general_scenes, moved, placement};
+use crate::check::sample::{general_scenes, placement, sighting};
 use crate::check::tolerance::{POWER, SHIFT_SAMPLES, SHIFTS, SINGLE_LEVEL};
 use crate::check::{Draw, Evidence, Subject, Verdict};
 use crate::scene::Scene;
@@ -55,14 +55,14 @@ fn translate_over(subject: &Subject<'_>, scenes: Vec<Scene>, draw: &Draw, claim:
                 let (mut mean, mut variance) = (0.0, 0.0);
                 for _ in 0..draw.samples(SHIFT_SAMPLES) {
                     // A fresh place for every sample: the closed form is about phases that are all equally likely.
-                    let here = moved(&footprint(&scene, &mut rng), placement(&mut rng), subject.precision);
-                    let motion = if along_x { here.dpdx } else { here.dpdy } * shift;
-                    let there = moved(&here, motion, subject.precision);
-                    let probability = predicted(subject, &here, motion);
+                    let here = sighting(&scene, &mut rng).placed(placement(&mut rng), subject.precision);
+                    let footprint = here.fragment.footprint;
+                    let motion = if along_x { footprint.dpdx } else { footprint.dpdy } * shift;
+                    let probability = predicted(subject, &footprint, motion);
                     mean += probability;
                     variance += probability * (1.0 - probability);
-                    before.push(here);
-                    after.push(there);
+                    before.push(here.fragment);
+                    after.push(here.moved(motion, subject.precision).fragment);
                 }
                 let (old, new) = (subject.thresholds(&before), subject.thresholds(&after));
                 reject_outsiders(&before, &old)?;

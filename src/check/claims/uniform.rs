@@ -9,11 +9,10 @@ use crate::check::tolerance::{
     SINGLE_LEVEL,
 };
 use crate::check::{Draw, Evidence, Subject, Verdict};
-use crate::scene::Scene;
+use crate::scene::{Fragment, Scene};
 use crate::stats::chi_square::{self, ChiSquare};
 use crate::stats::histogram::Histogram;
 use crate::stats::{ecdf, power};
-use crate::threshold::footprint::Footprint;
 
 /// Pooled chi-square over surfaces in general position.
 pub const MARGINAL: Claim = Claim {
@@ -71,11 +70,7 @@ fn marginal_size(draw: &Draw) -> usize {
 }
 
 /// Samples of the marginal claims with their values, or the trial that ends the claim.
-fn marginal_samples(
-    subject: &Subject<'_>,
-    claim: &Claim,
-    draw: &Draw,
-) -> Attempt<(Vec<Footprint<f64>>, Vec<f64>)> {
+fn marginal_samples(subject: &Subject<'_>, claim: &Claim, draw: &Draw) -> Attempt<(Vec<Fragment>, Vec<f64>)> {
     let mut rng = draw.rng(claim.id);
     let samples = independent(subject, &general_scenes(), marginal_size(draw), DRAWS_A_PLACE, &mut rng);
     let values = subject.thresholds(&samples);
@@ -84,14 +79,14 @@ fn marginal_samples(
 }
 
 /// Ends a claim whose samples are not all thresholds.
-pub(super) fn reject_outsiders(samples: &[Footprint<f64>], values: &[f64]) -> Attempt<()> {
+pub(super) fn reject_outsiders<F: Copy + Into<Fragment>>(samples: &[F], values: &[f64]) -> Attempt<()> {
     let outside = |value: &&f64| !(0.0..=1.0).contains(*value);
     match values.iter().position(|value| outside(&value)) {
         None => Ok(()),
         Some(first) => Err(Box::new(Trial::no_thresholds(
             values.iter().filter(outside).count(),
             values.len(),
-            format!("first {}", describe(&samples[first], values[first])),
+            format!("first {}", describe(&samples[first].into().footprint, values[first])),
         ))),
     }
 }
@@ -156,10 +151,10 @@ fn without_cdf(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     })
 }
 
-fn uniformity_by_lerp_factor(subject: &Subject<'_>, samples: &[Footprint<f64>], values: &[f64]) -> Trial {
+fn uniformity_by_lerp_factor(subject: &Subject<'_>, samples: &[Fragment], values: &[f64]) -> Trial {
     let mut groups = vec![Histogram::new(BINS); LERP_GROUPS];
     for (sample, &value) in samples.iter().zip(values) {
-        let lerp_factor = subject.nominal(sample).lerp_factor;
+        let lerp_factor = subject.nominal(&sample.footprint).lerp_factor;
         let group = ((lerp_factor * LERP_GROUPS as f64) as usize).min(LERP_GROUPS - 1);
         groups[group].add(value);
     }
@@ -199,7 +194,7 @@ fn constant_z(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
         if bias.abs() > worst_bias.abs() {
             worst_bias = bias;
         }
-        let z = samples.first().map_or(f64::NAN, |sample| sample.position.z);
+        let z = samples.first().map_or(f64::NAN, |sample| sample.footprint.position.z);
         evidence.push(NamedHistogram { name: format!("z = {z:.3}"), counts: counts.counts().to_vec() });
     }
     let Some(sum) =
