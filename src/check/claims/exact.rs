@@ -1,15 +1,15 @@
 //! What follows from the listings without any chance: where the threshold changes, and by which formula.
 
 use super::{Attempt, Claim, Conclusion, Promise, Trial, detectable_share};
-use crate::check::sample::{footprint, general_scenes, independent, moved, placement};
+use crate::check::sample::{Sighting, general_scenes, independent, placement, sighting};
 use crate::check::tolerance::{
     CDF_ROUNDING, CELL_MOTION, CELL_PAIRS, CELL_WEIGHTS, DRAWS_A_PLACE, FORMULA_SAMPLES, MEETING,
 };
 use crate::check::{Draw, Evidence, Subject, Verdict, subject::Precision};
+use crate::scene::Fragment;
 use crate::stats::binomial;
 use crate::stats::seed::uniform01;
 use crate::threshold::cdf::cdf;
-use crate::threshold::footprint::Footprint;
 use crate::threshold::robust::Join;
 use glam::{DVec3, dvec3};
 use rand::rngs::Xoshiro256PlusPlus;
@@ -36,12 +36,12 @@ pub const CDF: Claim = Claim {
 };
 
 /// A point before and after it moved by less than a cell, with its derivatives as they were.
-fn pair(subject: &Subject<'_>, found: &Footprint<f64>, rng: &mut Xoshiro256PlusPlus) -> [Footprint<f64>; 2] {
-    let first = moved(found, placement(rng), subject.precision);
-    let side = DVec3::ONE / DVec3::from_array(subject.nominal(&first).fine_scale);
+fn pair(subject: &Subject<'_>, found: Sighting<'_>, rng: &mut Xoshiro256PlusPlus) -> [Fragment; 2] {
+    let first = found.placed(placement(rng), subject.precision);
+    let side = DVec3::ONE / DVec3::from_array(subject.nominal(&first.fragment.footprint).fine_scale);
     let mut part = || (2.0 * uniform01(rng) - 1.0) * CELL_MOTION;
     let motion = dvec3(part(), part(), part()) * side;
-    [first, moved(&first, motion, subject.precision)]
+    [first.fragment, first.moved(motion, subject.precision).fragment]
 }
 
 fn cells(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
@@ -49,10 +49,10 @@ fn cells(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     let scenes = general_scenes();
     let mut pairs = Vec::new();
     for index in 0..draw.samples(CELL_PAIRS) {
-        let found = footprint(&scenes[index % scenes.len()], &mut rng);
-        let pair = pair(subject, &found, &mut rng);
+        let found = sighting(&scenes[index % scenes.len()], &mut rng);
+        let pair = pair(subject, found, &mut rng);
         // Where one octave has all but no weight, its changes drown in rounding.
-        if pair.iter().all(|at| CELL_WEIGHTS.contains(&subject.nominal(at).lerp_factor)) {
+        if pair.iter().all(|at| CELL_WEIGHTS.contains(&subject.nominal(&at.footprint).lerp_factor)) {
             pairs.extend(pair);
         }
     }
@@ -60,14 +60,14 @@ fn cells(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     let (mut within, mut changed, mut across, mut kept) = (0_u64, 0_u64, 0_u64, 0_u64);
     let mut first = None;
     for (pair, value) in pairs.chunks_exact(2).zip(thresholds.chunks_exact(2)) {
-        let cells = [&pair[0], &pair[1]].map(|at| subject.nominal(at));
+        let cells = [&pair[0], &pair[1]].map(|at| subject.nominal(&at.footprint));
         let same = value[0].to_bits() == value[1].to_bits();
         if cells[0].fine_cell == cells[1].fine_cell {
             within += 1;
             changed += u64::from(!same);
             if !same {
                 first.get_or_insert_with(|| {
-                    format!("from {} to {} at {}", value[0], value[1], pair[0].position)
+                    format!("from {} to {} at {}", value[0], value[1], pair[0].footprint.position)
                 });
             }
         } else if subject.join != Join::Dithered || cells[0].coarse_cell != cells[1].coarse_cell {
@@ -118,7 +118,7 @@ fn formula(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     let allowed = CDF_ROUNDING[usize::from(subject.precision == Precision::F64)];
     let (mut outside, mut largest, mut first) = (0_u64, 0.0_f64, None);
     for ((sample, &value), &x) in samples.iter().zip(&thresholds).zip(&interpolated) {
-        let lerp_factor = subject.nominal(sample).lerp_factor;
+        let lerp_factor = subject.nominal(&sample.footprint).lerp_factor;
         let expected = cdf(x, lerp_factor);
         let error = (value - expected).abs();
         if error > allowed || error.is_nan() {
