@@ -7,10 +7,14 @@
 //! Vulkan's loader and Mesa read the environment as it was when the process began. The trials therefore run in a child
 //! process of this one, with SwiftShader (it comes with Chromium) added to the drivers and Mesa's layers silenced.
 
-use hashed_alpha::scene::{Fragment, Scene};
-use hashed_alpha::shader::assemble::{POSITION, ShaderOptions};
+use hashed_alpha::check::parity::Law;
+use glam::{DVec3, Vec3, dvec2};
+use hashed_alpha::scene::{Camera, Fragment, Rectangle, Scene};
+use hashed_alpha::shader::assemble::{POSITION, ShaderOptions, assemble};
 use hashed_alpha::shader::gpu::adapter::{Adapter, adapters};
 use hashed_alpha::shader::gpu::evaluate::Constants;
+use hashed_alpha::shader::gpu::parity::{Class, Report, STAGES, Stage, expected_difference};
+use hashed_alpha::shader::gpu::picture::{self, Pixel};
 use hashed_alpha::shader::gpu::program::drawn_word;
 use hashed_alpha::shader::gpu::{Choice, Device, Error, Evaluator, Kernel};
 use hashed_alpha::threshold::robust::Robust;
@@ -18,6 +22,7 @@ use hashed_alpha::threshold::two_scale::Variant;
 use libtest_mimic::{Arguments, Failed, Trial};
 use std::path::Path;
 use std::process::{Command, ExitCode, Output};
+use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 use std::{env, fs};
 
@@ -61,12 +66,14 @@ fn swiftshader() -> Option<&'static str> {
 
 type Claim = fn(&Device) -> Result<(), Failed>;
 
-const CLAIMS: [(&str, Claim); 5] = [
+const CLAIMS: [(&str, Claim); 7] = [
+    ("the_parity_report_names_where_differences_start", report_names_the_start),
     ("outputs_stand_in_the_order_of_inputs_whatever_the_chunk", outputs_stand_in_order),
     ("words_drawn_on_the_device_are_those_drawn_here", drawn_words_agree),
     ("an_invalid_shader_is_an_error_with_its_place", invalid_shaders_are_errors),
     ("writing_nothing_is_told_from_writing_zero", nothing_is_not_zero),
     ("an_assembled_threshold_follows_the_one_in_rust", assembled_thresholds_follow),
+    ("a_drawn_picture_has_the_derivatives_of_its_surface", pictures_have_derivatives),
 ];
 
 fn trials() -> Vec<Trial> {
@@ -100,11 +107,19 @@ fn has(adapter: &Adapter, part: &str) -> bool {
 }
 
 fn trials_of(label: &'static str, part: &'static str) -> Vec<Trial> {
-    let on_device = move |claim: Claim| move || claim(&Device::open(&Choice::from(part))?);
-    let mut trials: Vec<_> = CLAIMS
-        .iter()
-        .map(|&(name, claim)| Trial::test(format!("{label}::{name}"), on_device(claim)))
-        .collect();
+    // One device for all trials that leave it as it was.
+    let shared: Arc<OnceLock<Result<Device, Error>>> = Arc::default();
+    let device = move || shared.get_or_init(|| Device::open(&Choice::from(part))).clone();
+    let mut trials = Vec::new();
+    for (name, claim) in CLAIMS {
+        let device = device.clone();
+        trials.push(Trial::test(format!("{label}::{name}"), move || claim(&device()?)));
+    }
+    for stage in STAGES {
+        let device = device.clone();
+        let name = format!("{label}::parity::{}", stage.name.replace([' ', ','], "_"));
+        trials.push(Trial::test(name, move || has_parity(&device()?, stage)));
+    }
     trials.push(Trial::test(format!("{label}::a_lost_device_answers_with_an_error"), move || {
         losing_is_an_error(&Device::open(&Choice::from(part))?)
     }));
@@ -242,5 +257,108 @@ fn assembled_thresholds_follow(device: &Device) -> Result<(), Failed> {
         // The slope of the threshold over the lerp factor is at most 2, and log2 is within 2^-21 on [1, 2).
         assert!((threshold - expected).abs() < 1.7e-6, "{fragment:?}: {threshold}, not {expected}");
     }
+    Ok(())
+}
+
+/// Inputs of a stage; those of its wrong shader are fewer.
+const PARITY_INPUTS: [u32; 2] = [1 << 17, 1 << 13];
+
+fn has_parity(device: &Device, stage: &Stage) -> Result<(), Failed> {
+    let [count, few] = PARITY_INPUTS;
+    let right = stage.outputs(device, &stage.kernel()?, count)?;
+    let wrong = stage.outputs(device, &stage.wrong_kernel()?, few)?;
+    let (is_same, found) = if stage.class == Class::Law {
+        assert!(!Law::of(&wrong.device, &wrong.rust)?.holds(), "the wrong shader was not seen");
+        let law = Law::of(&right.device, &right.rust)?;
+        (law.holds(), format!("{law:?}"))
+    } else {
+        assert!(stage.agreement(&wrong).violation.is_some(), "the wrong shader was not seen");
+        let agreement = stage.agreement(&right);
+        if let Some(input) = agreement.violation {
+            let words = &right.inputs[input * stage.words[0]..][..stage.words[0]];
+            let [device, rust] =
+                [&right.device, &right.rust].map(|all| &all[input * stage.words[1]..][..stage.words[1]]);
+            return Err(format!("{words:x?}: {device:?}, not {rust:?} as in Rust; {agreement:?}").into());
+        }
+        (agreement.equal == 1.0, format!("{agreement:?}"))
+    };
+    match expected_difference(device.name(), stage.name) {
+        Some(known) if is_same => Err(format!("no difference any more: {known:?}").into()),
+        None if !is_same && (is_listed(device) || stage.class == Class::Law) => {
+            Err(format!("a new difference: {found}").into())
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Whether the differences of a device are listed.
+fn is_listed(device: &Device) -> bool {
+    SOFTWARE.iter().any(|(_, part)| device.name().to_lowercase().contains(part))
+}
+
+/// Printed with `--nocapture`.
+fn report_names_the_start(device: &Device) -> Result<(), Failed> {
+    let report = Report::of(device, PARITY_INPUTS[1])?;
+    println!("{report}");
+    assert_eq!(report.rows.len(), STAGES.iter().filter(|stage| stage.class != Class::Law).count());
+    if is_listed(device) {
+        assert_eq!(report.first_difference().map(|row| row.stage), Some("log2"));
+    }
+    Ok(())
+}
+
+/// The greatest error of the device's derivatives in a picture, in units of 2^-23 of the largest coordinate of the
+/// surface's corners, and the number of pixels that it is of.
+fn derivative_error(camera: &Camera, surface: &Rectangle, pixels: &[Pixel]) -> (f64, usize) {
+    let corner = surface.centre.abs() + surface.half_u.abs() + surface.half_v.abs();
+    let unit = corner.max_element() / 8_388_608.0;
+    let (mut worst, mut count) = (0.0_f64, 0);
+    for Pixel { place, footprint, .. } in pixels {
+        // The difference between two pixels is the derivative half-way; the two are those of the pixel's own row or
+        // column, or those of the first in its quad.
+        let [x, y] = place.map(|place| f64::from(place) + 0.5);
+        let [left, top] = place.map(|place| f64::from(place & !1) + 0.5);
+        let at = |x, y| surface.footprint(camera, dvec2(x, y));
+        let (Some(dx), Some(coarse_dx)) = (at(left + 0.5, y), at(left + 0.5, top)) else { continue };
+        let (Some(dy), Some(coarse_dy)) = (at(x, top + 0.5), at(left, top + 0.5)) else { continue };
+        let error = |found: Vec3, fine: DVec3, coarse: DVec3| {
+            let found = found.as_dvec3();
+            (found - fine).length().min((found - coarse).length())
+        };
+        let dx_error = error(footprint.dpdx, dx.dpdx, coarse_dx.dpdx);
+        let dy_error = error(footprint.dpdy, dy.dpdy, coarse_dy.dpdy);
+        worst = worst.max(dx_error / unit).max(dy_error / unit);
+        count += 1;
+    }
+    (worst, count)
+}
+
+fn pictures_have_derivatives(device: &Device) -> Result<(), Failed> {
+    /// Positions are interpolated in `f32`, with weights that are rounded too: a few units for each of the two.
+    const LARGEST_ERROR: f64 = 16.0;
+    let options = ShaderOptions::robust(Variant::Isotropic);
+    let source = assemble(&options)?;
+    let robust = Robust::new(Variant::Isotropic);
+    let follows = |pixel: &Pixel| {
+        robust.threshold(&pixel.footprint).is_ok_and(|threshold| (pixel.threshold - threshold).abs() < 4.1e-6)
+    };
+    for scene in Scene::all() {
+        let (camera, surface) = (&scene.camera, &scene.surfaces[0]);
+        let mut pixels = picture::draw(device, &source, camera, surface)?;
+        let (error, count) = derivative_error(camera, surface, &pixels);
+        println!("{}: {}: {count} pixels, error {error}", device.name(), scene.name);
+        assert!(error < LARGEST_ERROR, "{}: {error}", scene.name);
+        let seen = Scene { surfaces: vec![*surface], ..scene.clone() }.footprints().count();
+        assert!(count.abs_diff(seen) < seen / 100, "{}: {count} of {seen} pixels", scene.name);
+        let astray = pixels.iter().find(|pixel| !follows(pixel));
+        assert_eq!(astray, None, "{}", scene.name);
+        // A hundredth more, and it is seen.
+        pixels.iter_mut().for_each(|pixel| pixel.footprint.dpdx *= 1.01);
+        assert!(derivative_error(camera, surface, &pixels).0 > LARGEST_ERROR, "{}", scene.name);
+    }
+    let wall = &Scene::all()[0];
+    let wrong = source.replace("scaled - whole >= boundary", "scaled - whole > 1.0 - boundary");
+    let pixels = picture::draw(device, &wrong, &wall.camera, &wall.surfaces[0])?;
+    assert!(pixels.iter().any(|pixel| !follows(pixel)), "the wrong shader was not seen");
     Ok(())
 }

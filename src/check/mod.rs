@@ -9,6 +9,7 @@ pub mod expectation;
 pub mod findings;
 pub mod outcome;
 pub mod results;
+pub mod parity;
 pub mod sample;
 pub mod subject;
 pub mod suite;

@@ -5,6 +5,8 @@
 //! | [`adapter`] | lists the drivers of the machine and picks one by name, index or the environment |
 //! | [`device`] | opens it; every call into a driver has a time limit |
 //! | [`evaluate`] | runs a function `threshold` over fragments |
+//! | [`parity`] | compares it with Rust, stage by stage |
+//! | [`picture`] | draws a rectangle, with the derivatives of the device itself |
 //! | [`program`] | runs a WGSL function over inputs from memory, or over inputs that the device makes itself |
 //!
 //! Back ends are Vulkan and OpenGL. Both libraries are opened at run time, so that the crate builds and answers on a
@@ -14,6 +16,8 @@
 pub mod adapter;
 pub mod device;
 pub mod evaluate;
+pub mod parity;
+pub mod picture;
 pub mod program;
 
 pub use adapter::{Choice, Unavailable};

@@ -1,0 +1,82 @@
+//! Thresholds a second on each device, without transfers: the device draws its inputs itself and times itself.
+//!
+//! A machine without a driver has nothing to measure and says so. `HASHED_ALPHA_ADAPTER` measures one adapter alone.
+
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use hashed_alpha::shader::assemble::{ShaderOptions, assemble};
+use hashed_alpha::shader::gpu::adapter::{Adapter, CHOICE_VARIABLE, adapters};
+use hashed_alpha::shader::gpu::{Choice, Device, Error, Kernel, Program};
+use hashed_alpha::threshold::hash::HashKind;
+use hashed_alpha::threshold::two_scale::Variant;
+use std::time::{Duration, Instant};
+
+const THRESHOLDS: u32 = 1 << 20;
+
+/// A place in [-8, 8)^3 and derivatives of 2^-12 to 2^-5 object units per pixel.
+const FOOTPRINT: &str = "
+fn signed(k: u32) -> f32 { return f32(word(k) >> 8u) * 0x1p-23f - 1.0; }
+fn vector(k: u32) -> vec3<f32> { return vec3<f32>(signed(k), signed(k + 1u), signed(k + 2u)); }
+fn drawn_threshold() -> f32 {
+    let pixel = bitcast<f32>((122u - word(9u) % 7u) << 23u);
+    return threshold(8.0 * vector(0u), pixel * vector(3u), pixel * vector(6u));
+}
+";
+
+fn subjects() -> [(&'static str, ShaderOptions); 4] {
+    let integer = ShaderOptions { hash: HashKind::Mm4, ..ShaderOptions::listing(Variant::Isotropic) };
+    [
+        ("listing 1, sine", ShaderOptions::listing(Variant::Isotropic)),
+        ("listing 1, mm4", integer),
+        ("robust isotropic", ShaderOptions::robust(Variant::Isotropic)),
+        ("robust anisotropic", ShaderOptions::robust(Variant::Anisotropic)),
+    ]
+}
+
+fn program(device: &Device, options: &ShaderOptions) -> Result<Program, Error> {
+    let source = assemble(options).map_err(|error| Error::Validation(error.to_string()))?;
+    let source = format!("{source}{FOOTPRINT}");
+    device.compile(&Kernel::of_drawn_words(&source, 1, "array(bitcast<u32>(drawn_threshold()))"))
+}
+
+/// The time of so many runs: that of the device's clock, or that of a wall clock where it has none.
+fn time(program: &Program, runs: u64) -> Result<Duration, Error> {
+    let mut sum = Duration::ZERO;
+    for run in 0..runs {
+        let start = Instant::now();
+        let drawn = program.draw(run as u32, THRESHOLDS)?;
+        sum += drawn.time.unwrap_or_else(|| start.elapsed());
+    }
+    Ok(sum)
+}
+
+fn all(criterion: &mut Criterion) {
+    let chosen = match Choice::from_environment() {
+        Choice::First => adapters().iter().map(Adapter::name).collect(),
+        choice => choice.find().map(|adapter| vec![adapter.name()]).unwrap_or_default(),
+    };
+    if chosen.is_empty() {
+        println!("gpu: nothing to measure: {CHOICE_VARIABLE}={:?}", std::env::var(CHOICE_VARIABLE));
+        return;
+    }
+    let mut group = criterion.benchmark_group("gpu");
+    group.throughput(Throughput::Elements(u64::from(THRESHOLDS))).sample_size(10);
+    for name in chosen {
+        let device = match Device::open(&Choice::Name(name.clone())) {
+            Ok(device) => device,
+            Err(error) => {
+                println!("gpu: {name} left out: {error}");
+                continue;
+            }
+        };
+        for (subject, options) in subjects() {
+            let program = program(&device, &options).expect("an assembled shader compiles");
+            group.bench_function(format!("{subject}/{name}"), |bench| {
+                bench.iter_custom(|runs| time(&program, runs).expect("the device answers"));
+            });
+        }
+    }
+    group.finish();
+}
+
+criterion_group!(benches, all);
+criterion_main!(benches);
