@@ -1,9 +1,9 @@
 //! The judgement of a parity by law: two sides that share no value must share their distribution.
 
 use super::tolerance::{BINS, SINGLE_LEVEL};
+use crate::stats::StatsError;
 use crate::stats::chi_square::{self, ChiSquare};
 use crate::stats::histogram::Histogram;
-use crate::stats::StatsError;
 
 /// Two independent samples and what speaks against their being one law, the uniform one.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -29,9 +29,18 @@ const fn of_swiftshader(stage: &'static str, reason: &'static str) -> Difference
 /// Every known difference. One that does not occur any more is as much of a finding as a new one.
 pub const DIFFERENCES: &[Difference] = &[
     of_all("log2", LOGARITHM),
-    of_all("fraction from the mantissa", "the logarithm of the mantissa, where Rust takes that of the whole scale"),
-    of_swiftshader("hash sine, far cells", "a sine whose argument is reduced by a rounded 1/(2 pi): from 2^17 on"),
-    of_swiftshader("hash sine chi 2, far cells", "the same; its outer hash is that of a coordinate: from 2^13 on"),
+    of_all(
+        "fraction from the mantissa",
+        "the logarithm of the mantissa, where Rust takes that of the whole scale",
+    ),
+    of_swiftshader(
+        "hash sine, far cells",
+        "a sine whose argument is reduced by a rounded 1/(2 pi): from 2^17 on",
+    ),
+    of_swiftshader(
+        "hash sine chi 2, far cells",
+        "the same; its outer hash is that of a coordinate: from 2^13 on",
+    ),
     of_all("normal quantile", "f32 in place of f64, and the device's log and sqrt"),
     of_all("normal distribution", "f32 in place of f64, and the device's exp"),
     of_all("threshold listing 1, mm4", LOGARITHM),

@@ -4,8 +4,8 @@ use crate::shader::gpu::program::drawn_word;
 use crate::threshold::footprint::Footprint;
 use crate::threshold::hash::{Hash, HashKind};
 use crate::threshold::real::Real;
-use crate::threshold::robust::scales::{Scales, scales};
 use crate::threshold::robust::Repairs;
+use crate::threshold::robust::scales::{Scales, scales};
 use crate::threshold::two_scale::{TwoScale, Variant};
 use glam::Vec3;
 

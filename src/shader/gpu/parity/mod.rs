@@ -100,8 +100,7 @@ impl Stage {
     ///
     /// [`Error::Validation`] for options that cannot be written.
     pub fn kernel(&self) -> Result<Kernel, Error> {
-        let source =
-            assemble(&(self.options)()).map_err(|error| Error::Validation(error.to_string()))?;
+        let source = assemble(&(self.options)()).map_err(|error| Error::Validation(error.to_string()))?;
         let source = format!("{source}{THREE}");
         Ok(Kernel::of_words(&source, self.words[0], self.words[1], self.expression))
     }
@@ -219,7 +218,8 @@ mod tests {
     fn agreement_counts_and_bounds() {
         let stage = Stage { class: Class::Bounded { ulp: 2.0, absolute: 0.0, source: "" }, ..STAGES[0] };
         let one = |bits: u32| f32::from_bits(1.0_f32.to_bits() + bits);
-        let of = |device: f32| stage.agreement(&Outputs { inputs: vec![], device: vec![device], rust: vec![1.0] });
+        let of =
+            |device: f32| stage.agreement(&Outputs { inputs: vec![], device: vec![device], rust: vec![1.0] });
         assert_eq!((of(1.0).equal, of(1.0).worst_input), (1.0, None));
         assert_eq!((of(one(2)).worst_ulp, of(one(2)).violation), (2.0, None));
         assert_eq!(of(one(3)).violation, Some(0));

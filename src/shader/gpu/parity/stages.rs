@@ -31,10 +31,12 @@ const ROBUST: Class = bounded(0.0, 8.5 * LOG2, "log2 2^-21 on [1, 2], quotients 
 const LISTING: Class = bounded(0.0, 19.0 * LOG2, "log2 3 ULP, quotients 2.5 ULP, sqrt 4.5 ULP");
 
 /// A mixture of normal quantiles has a slope of at most 6 over the lerp factor; Rust computes it in `f64`.
-const COPULA: Class = bounded(0.0, 32.0 * LOG2, "log2 2^-21 on [1, 2], log 3 ULP, exp 3 + 2|x| ULP, quotients 2.5 ULP");
+const COPULA: Class =
+    bounded(0.0, 32.0 * LOG2, "log2 2^-21 on [1, 2], log 3 ULP, exp 3 + 2|x| ULP, quotients 2.5 ULP");
 
 /// Sums of the paper's kind on [0, 1]: a quotient of 2.5 ULP, the rest correctly rounded or fused.
-const EQ_2: Class = bounded(4.0, 4.0 / 16_777_216.0, "one or two quotients of 2.5 ULP, products that may be fused");
+const EQ_2: Class =
+    bounded(4.0, 4.0 / 16_777_216.0, "one or two quotients of 2.5 ULP, products that may be fused");
 
 fn listing(variant: Variant, hash: HashKind) -> ShaderOptions {
     ShaderOptions { hash, ..ShaderOptions::listing(variant) }
@@ -171,6 +173,7 @@ macro_rules! vector_stage {
 }
 
 /// Every stage, in the order of a threshold.
+#[rustfmt::skip]
 pub const STAGES: &[Stage] = &[
     number_stage!(
         "max derivative", bounded(5.0, 0.0, "sqrt as 1 / inverseSqrt: 2 + 2.5 ULP; sums that may be fused"), isotropic,
