@@ -2,6 +2,8 @@
 //!
 //! A machine without a driver has nothing to measure and says so. `HASHED_ALPHA_ADAPTER` measures one adapter alone.
 
+#![expect(clippy::print_stdout, reason = "says why nothing was measured")]
+
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use hashed_alpha::shader::assemble::{ShaderOptions, assemble};
 use hashed_alpha::shader::gpu::adapter::{Adapter, CHOICE_VARIABLE, adapters};

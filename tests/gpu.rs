@@ -7,6 +7,8 @@
 //! Vulkan's loader and Mesa read the environment as it was when the process began. The trials therefore run in a child
 //! process of this one, with SwiftShader (it comes with Chromium) added to the drivers and Mesa's layers silenced.
 
+#![expect(clippy::print_stdout, reason = "what was measured, for those who ask with --nocapture")]
+
 use glam::{DVec3, Vec3, dvec2};
 use hashed_alpha::check::parity::Law;
 use hashed_alpha::scene::{Camera, Fragment, Rectangle, Scene};
