@@ -1,7 +1,6 @@
 //! Which driver: the list of adapters and the choice among them.
 
 use core::fmt;
-use core::str::FromStr;
 use wgpu::{Backends, DeviceType, Instance, InstanceDescriptor, InstanceFlags};
 
 /// The environment variable that chooses an adapter: a part of its [`Adapter::name`], or its index.
@@ -21,12 +20,6 @@ impl Adapter {
         let info = self.0.get_info();
         let driver = [info.driver, info.driver_info].join(" ");
         format!("{:?} {}, {}", info.backend, info.name, driver.trim())
-    }
-
-    /// Returns whether the device is the processor itself.
-    #[must_use]
-    pub fn is_software(&self) -> bool {
-        self.0.get_info().device_type == DeviceType::Cpu
     }
 }
 
@@ -99,13 +92,6 @@ impl From<&str> for Choice {
             "" => Self::First,
             wanted => wanted.parse().map_or_else(|_| Self::Name(wanted.to_owned()), Self::Index),
         }
-    }
-}
-
-impl FromStr for Choice {
-    type Err = core::convert::Infallible;
-    fn from_str(wanted: &str) -> Result<Self, Self::Err> {
-        Ok(Self::from(wanted))
     }
 }
 
