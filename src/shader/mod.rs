@@ -3,6 +3,8 @@
 //! What never lives here: claims, statistics, printing.
 
 pub mod assemble;
+pub mod export;
 #[cfg(feature = "gpu")]
 pub mod gpu;
 pub mod interpreter;
+pub mod own;

@@ -12,5 +12,5 @@ fn joined(position: vec3<f32>, scales: Scales) -> f32 {
         takes_fine(coarse.y, 1u, scales.octave.y, scales.fraction.y),
         takes_fine(coarse.z, 2u, scales.octave.z, scales.fraction.z),
     );
-    return hash_cell(nested_cell(position, scales.octave + select(vec3<i32>(0), vec3<i32>(1), fine)));
+    return hash_cell(nested_cell(position, scales.octave + vec3<i32>(fine)));
 }

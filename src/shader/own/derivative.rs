@@ -1,0 +1,141 @@
+//! Screen derivatives of the position, taken by name: there is no neighbouring pixel here, but each fragment brings
+//! them along.
+
+use super::error::Fault;
+use super::scan::Token;
+use naga::{
+    Arena, Block, Expression, Function, FunctionArgument, FunctionResult, GlobalVariable, Handle, Module,
+    Span, Statement, Type, TypeInner, VectorSize,
+};
+
+/// The variables that take the place of derivatives: along x, along y, and the sum of both without signs.
+const VARIABLES: [&str; 3] = ["screen_dx", "screen_dy", "screen_width"];
+
+/// Declares the variables in GLSL; goes before the text.
+pub(super) const GLSL: &str = "vec3 screen_dx, screen_dy, screen_width;\n";
+
+/// Declares the variables in WGSL; goes behind the text.
+pub(super) const WGSL: &str = "
+var<private> screen_dx: vec3<f32>;
+var<private> screen_dy: vec3<f32>;
+var<private> screen_width: vec3<f32>;
+";
+
+/// Replaces `dFdx(position)` and its kin in the body of `function` by a variable, byte for byte, so that all else
+/// keeps its place. Returns whether there was any.
+///
+/// # Errors
+///
+/// A derivative of anything else, or elsewhere: its value is not known.
+pub(super) fn replace(text: &mut [u8], tokens: &[Token], function: &str) -> Result<bool, Fault> {
+    let mut found = false;
+    for (index, token) in tokens.iter().enumerate() {
+        let word = |at: usize| tokens.get(at).map_or(&b""[..], |token| &text[token.at.clone()]);
+        let variable = match word(index) {
+            b"dFdx" | b"dpdx" | b"dFdxFine" | b"dpdxFine" | b"dFdxCoarse" | b"dpdxCoarse" => VARIABLES[0],
+            b"dFdy" | b"dpdy" | b"dFdyFine" | b"dpdyFine" | b"dFdyCoarse" | b"dpdyCoarse" => VARIABLES[1],
+            b"fwidth" | b"fwidthFine" | b"fwidthCoarse" => VARIABLES[2],
+            _ => continue,
+        };
+        // A parameter of that name, or a field.
+        if word(index + 1) != b"(" || index > 0 && word(index - 1) == b"." {
+            continue;
+        }
+        let close = match (word(index + 2), word(index + 3)) {
+            (b"position", b")") => index + 3,
+            (b"position", b".") if word(index + 5) == b")" => index + 5,
+            _ => {
+                let message = "only the derivatives of `position` are known here; for those of anything else add a \
+                               parameter and give it a value";
+                return Err(Fault::new(message).at(Some(token.at.clone())));
+            }
+        };
+        if token.function.is_none_or(|name| word(name) != function.as_bytes()) {
+            let message = format!(
+                "a derivative is known in the body of `{function}` only; hand it to other functions as a parameter"
+            );
+            return Err(Fault::new(message).at(Some(token.at.clone())));
+        }
+        let (start, argument) = (token.at.start, tokens[index + 2].at.end);
+        text[start..argument].fill(b' ');
+        text[start..start + variable.len()].copy_from_slice(variable.as_bytes());
+        text[tokens[close].at.clone()].fill(b' ');
+        found = true;
+    }
+    Ok(found)
+}
+
+/// Wraps `target` in a function that takes the derivatives as parameters `dpdx` and `dpdy` and fills the variables.
+pub(super) fn wrap(module: &mut Module, target: Handle<Function>) -> Handle<Function> {
+    let vector = module.types.insert(
+        Type { name: None, inner: TypeInner::Vector { size: VectorSize::Tri, scalar: naga::Scalar::F32 } },
+        Span::UNDEFINED,
+    );
+    let called = &module.functions[target];
+    let mut function = Function {
+        arguments: called.arguments.clone(),
+        result: called.result.clone(),
+        ..Function::default()
+    };
+    let own_arguments = function.arguments.len();
+    let [dx, dy] = ["dpdx", "dpdy"].map(|name| {
+        let arguments = &mut function.arguments;
+        let found = arguments.iter().position(|argument| argument.name.as_deref() == Some(name));
+        found.unwrap_or_else(|| {
+            arguments.push(FunctionArgument { name: Some(name.to_owned()), ty: vector, binding: None });
+            arguments.len() - 1
+        })
+    });
+    let mut body = Body { expressions: Arena::new(), block: Block::new() };
+    let arguments: Vec<_> = (0..function.arguments.len())
+        .map(|index| body.append(Expression::FunctionArgument(index as u32)))
+        .collect();
+    let width = {
+        let absolute = [arguments[dx], arguments[dy]].map(|arg| {
+            let (fun, arg1, arg2, arg3) = (naga::MathFunction::Abs, None, None, None);
+            body.emit(Expression::Math { fun, arg, arg1, arg2, arg3 })
+        });
+        body.emit(Expression::Binary { op: naga::BinaryOperator::Add, left: absolute[0], right: absolute[1] })
+    };
+    for (name, value) in VARIABLES.into_iter().zip([arguments[dx], arguments[dy], width]) {
+        if let Some(variable) = find(&module.global_variables, name) {
+            let pointer = body.append(Expression::GlobalVariable(variable));
+            body.block.push(Statement::Store { pointer, value }, Span::UNDEFINED);
+        }
+    }
+    let result = body.append(Expression::CallResult(target));
+    let call = Statement::Call {
+        function: target,
+        arguments: arguments[..own_arguments].to_vec(),
+        result: Some(result),
+    };
+    body.block.push(call, Span::UNDEFINED);
+    body.block.push(Statement::Return { value: Some(result) }, Span::UNDEFINED);
+    (function.expressions, function.body) = (body.expressions, body.block);
+    function.result = function.result.map(|FunctionResult { ty, .. }| FunctionResult { ty, binding: None });
+    module.functions.append(function, Span::UNDEFINED)
+}
+
+fn find(variables: &Arena<GlobalVariable>, name: &str) -> Option<Handle<GlobalVariable>> {
+    variables.iter().find(|(_, variable)| variable.name.as_deref() == Some(name)).map(|(handle, _)| handle)
+}
+
+/// A function body under construction.
+struct Body {
+    expressions: Arena<Expression>,
+    block: Block,
+}
+
+impl Body {
+    fn append(&mut self, expression: Expression) -> Handle<Expression> {
+        self.expressions.append(expression, Span::UNDEFINED)
+    }
+
+    /// Appends an expression that is computed here.
+    fn emit(&mut self, expression: Expression) -> Handle<Expression> {
+        let before = self.expressions.len();
+        let handle = self.append(expression);
+        self.block.push(Statement::Emit(self.expressions.range_from(before)), Span::UNDEFINED);
+        handle
+    }
+}

@@ -1,0 +1,171 @@
+//! From fragments to the values of parameters: as columns for the interpreter, as words for a device.
+
+use super::{Binding, Input, OwnShader, ShaderError, Value};
+use crate::scene::fragment::Fragment;
+use crate::shader::interpreter::{Column, DeviceModel, Program, Stopped, Values};
+use core::fmt::Write as _;
+
+impl Input {
+    /// Returns the words that it takes in one fragment: one a scalar; floats by their bits, rounded to nearest.
+    #[must_use]
+    pub fn words(self, fragment: &Fragment) -> Vec<u32> {
+        let float = |value: f64| (value as f32).to_bits();
+        let footprint = &fragment.footprint;
+        match self {
+            Self::Position => footprint.position.to_array().map(float).to_vec(),
+            Self::Dpdx => footprint.dpdx.to_array().map(float).to_vec(),
+            Self::Dpdy => footprint.dpdy.to_array().map(float).to_vec(),
+            Self::Pixel => fragment.pixel.to_array().map(float).to_vec(),
+            Self::Texcoord => fragment.texcoord.to_array().map(float).to_vec(),
+            Self::Lod => vec![float(fragment.lod)],
+            Self::Frame => vec![fragment.frame],
+            Self::Layer => vec![fragment.layer],
+            Self::Constant(value) => vec![value.word()],
+        }
+    }
+
+    /// The number of words.
+    const fn size(self) -> usize {
+        match self {
+            Self::Position | Self::Dpdx | Self::Dpdy => 3,
+            Self::Pixel | Self::Texcoord => 2,
+            Self::Lod | Self::Frame | Self::Layer | Self::Constant(_) => 1,
+        }
+    }
+}
+
+impl OwnShader {
+    /// Makes the function ready for the interpreter.
+    ///
+    /// # Errors
+    ///
+    /// [`ShaderError`]: it uses something that is not interpreted.
+    pub fn program(&self) -> Result<Program, ShaderError> {
+        Program::compile(&self.module, &self.info, &self.function).map_err(|error| ShaderError {
+            file: self.file.clone(),
+            place: self.place(error.span),
+            message: error.message,
+        })
+    }
+
+    /// Returns the values of every parameter as columns for [`Program::run`]: one a scalar, of one value where it is the
+    /// same in every fragment.
+    #[must_use]
+    pub fn columns(&self, fragments: &[Fragment]) -> Vec<Values> {
+        let mut columns = Vec::new();
+        for Binding { input, .. } in &self.bindings {
+            match *input {
+                Input::Constant(Value::F32(value)) => columns.push(Values::F32(vec![value])),
+                Input::Constant(Value::I32(value)) => columns.push(Values::I32(vec![value])),
+                Input::Constant(Value::U32(value)) => columns.push(Values::U32(vec![value])),
+                Input::Constant(Value::Bool(value)) => columns.push(Values::Bool(vec![value])),
+                Input::Frame => columns.push(Values::U32(fragments.iter().map(|f| f.frame).collect())),
+                Input::Layer => columns.push(Values::U32(fragments.iter().map(|f| f.layer).collect())),
+                _ => columns.extend((0..input.size()).map(|component| {
+                    let value = |fragment| f32::from_bits(input.words(fragment)[component]);
+                    Values::F32(fragments.iter().map(value).collect())
+                })),
+            }
+        }
+        columns
+    }
+
+    /// Runs the function, made ready by [`OwnShader::program`], on every fragment.
+    ///
+    /// # Errors
+    ///
+    /// [`ShaderError`]: a loop that does not end, with its place.
+    pub fn thresholds(
+        &self,
+        program: &Program,
+        fragments: &[Fragment],
+        model: &DeviceModel,
+    ) -> Result<Vec<f32>, ShaderError> {
+        let values = self.columns(fragments);
+        let columns: Vec<_> = values.iter().map(as_column).collect();
+        let fail = |place, message| ShaderError { file: self.file.clone(), place, message };
+        match program.run(&columns, fragments.len(), model) {
+            Ok(mut results) => match results.pop() {
+                Some(Values::F32(thresholds)) => Ok(thresholds),
+                _ => Err(fail(None, "it is the program of another function".to_owned())),
+            },
+            Err(stopped) => {
+                let place = match stopped {
+                    Stopped::Endless { span, .. } => self.place(span),
+                    Stopped::Arguments(_) => None,
+                };
+                Err(fail(place, stopped.to_string()))
+            }
+        }
+    }
+
+    /// Returns the module as WGSL text without bindings and entry points, whatever its language was.
+    ///
+    /// # Errors
+    ///
+    /// [`ShaderError`]: the module cannot be said in WGSL.
+    pub fn wgsl(&self) -> Result<String, ShaderError> {
+        let flags = naga::back::wgsl::WriterFlags::empty();
+        naga::back::wgsl::write_string(&self.module, &self.info, flags).map_err(|error| ShaderError {
+            file: self.file.clone(),
+            place: None,
+            message: format!("it cannot be written as WGSL: {error}"),
+        })
+    }
+
+    /// Returns the number of words that a device is sent for one fragment; constants are not sent.
+    #[must_use]
+    pub fn words_per_fragment(&self) -> usize {
+        self.sent().map(Input::size).sum()
+    }
+
+    /// Returns the words that a device is sent, fragment by fragment.
+    #[must_use]
+    pub fn words(&self, fragments: &[Fragment]) -> Vec<u32> {
+        let mut words = Vec::with_capacity(fragments.len() * self.words_per_fragment());
+        for fragment in fragments {
+            words.extend(self.sent().flat_map(|input| input.words(fragment)));
+        }
+        words
+    }
+
+    /// Returns the call of the function in WGSL; it reads the k-th word of its fragment as `word(k)`, as a float
+    /// `number(k)`.
+    #[must_use]
+    pub fn call(&self) -> String {
+        let mut call = format!("{}(", self.function);
+        let mut first = 0;
+        for Binding { input, .. } in &self.bindings {
+            let numbers: Vec<_> = (first..first + input.size()).map(|k| format!("number({k}u)")).collect();
+            // Writing to a string cannot fail.
+            let _ = match input {
+                Input::Frame | Input::Layer => write!(call, "word({first}u), "),
+                Input::Constant(Value::F32(value)) => write!(call, "{value:?}f, "),
+                Input::Constant(Value::I32(value)) => write!(call, "i32({value}), "),
+                Input::Constant(Value::U32(value)) => write!(call, "{value}u, "),
+                Input::Constant(Value::Bool(value)) => write!(call, "{value}, "),
+                _ if numbers.len() == 1 => write!(call, "{}, ", numbers[0]),
+                _ => write!(call, "vec{}<f32>({}), ", numbers.len(), numbers.join(", ")),
+            };
+            if !matches!(input, Input::Constant(_)) {
+                first += input.size();
+            }
+        }
+        call.push(')');
+        call
+    }
+
+    /// The inputs that differ from fragment to fragment.
+    fn sent(&self) -> impl Iterator<Item = Input> {
+        self.bindings.iter().map(|binding| binding.input).filter(|input| !matches!(input, Input::Constant(_)))
+    }
+}
+
+fn as_column(values: &Values) -> Column<'_> {
+    match values {
+        Values::F32(values) => Column::F32(values),
+        Values::I32(values) => Column::I32(values),
+        Values::U32(values) => Column::U32(values),
+        Values::Bool(values) => Column::Bool(values),
+    }
+}

@@ -1,0 +1,111 @@
+//! GLSL as engines write it, made into the GLSL 450 that naga reads.
+//!
+//! Everything is blanked or replaced byte for byte, so that a message about what is left names the user's own line and
+//! column:
+//!
+//! * lines of `#version`, `#extension`, `#pragma`; a version of OpenGL ES defines `GL_ES`;
+//! * precision statements, and `highp`, `mediump`, `lowp` everywhere: all is read as 32 bits;
+//! * `const` in front of a parameter;
+//! * a name `in`, which the paper's own listings use, becomes another one;
+//! * `uniform` in front of a plain value, which then waits for one (`--set`);
+//! * derivatives of the position, see [`super::derivative`].
+//!
+//! A `main` is appended where there is none.
+
+use super::derivative;
+use super::error::Fault;
+use super::scan::{Token, tokens};
+
+/// Text that naga reads, and what was taken out of it.
+pub(super) struct Prepared {
+    pub text: String,
+    /// Bytes that stand before the user's first one.
+    pub prelude: usize,
+    /// Names of the uniforms that wait for a value.
+    pub uniforms: Vec<String>,
+    /// Names of globals that have an initial value; naga drops those values that it cannot compute.
+    pub initialised: Vec<String>,
+    pub has_derivatives: bool,
+    pub is_es: bool,
+}
+
+/// Prepares a text whose function to be called is `function`.
+///
+/// # Errors
+///
+/// A derivative of something else than the position, and nesting too deep.
+pub(super) fn prepare(text: &str, function: &str) -> Result<Prepared, Fault> {
+    let mut bytes = text.as_bytes().to_vec();
+    let is_es = blank_directives(&mut bytes);
+    let blanked = String::from_utf8_lossy(&bytes).into_owned();
+    let tokens = tokens(&blanked)?;
+    let word = |index: usize| tokens.get(index).map_or("", |token: &Token| &blanked[token.at.clone()]);
+    let is_name = |index: usize| word(index).starts_with(|c: char| c.is_ascii_alphabetic() || c == '_');
+    let spare = spare_name(&tokens, &blanked);
+    let (mut uniforms, mut initialised) = (Vec::new(), Vec::new());
+    let mut has_main = false;
+    for (index, token) in tokens.iter().enumerate() {
+        let mut blank = |at: core::ops::Range<usize>| bytes[at].fill(b' ');
+        match word(index) {
+            "precision" if word(index + 3) == ";" => {
+                blank(token.at.start..tokens[index + 3].at.end);
+            }
+            "highp" | "mediump" | "lowp" => blank(token.at.clone()),
+            "const" if token.parentheses > 0 => blank(token.at.clone()),
+            "in" if !is_name(index + 1) => bytes[token.at.clone()].copy_from_slice(spare.as_bytes()),
+            "uniform" if token.function.is_none() => {
+                let value_type =
+                    index + 1 + usize::from(matches!(word(index + 1), "highp" | "mediump" | "lowp"));
+                let is_plain = !word(value_type).contains("sampler") && !word(value_type).contains("image");
+                if is_plain && is_name(value_type + 1) {
+                    blank(token.at.clone());
+                    uniforms.push(word(value_type + 1).to_owned());
+                }
+            }
+            "=" if token.function.is_none() && word(index + 1) != "=" => {
+                // Behind the name may stand the size of an array.
+                let before = &tokens[..index];
+                let is_size =
+                    |at: usize| matches!(word(at), "[" | "]") || word(at).bytes().all(|b| b.is_ascii_digit());
+                let name = (0..before.len()).rev().find(|&at| !is_size(at)).map(word);
+                initialised.extend(name.map(str::to_owned));
+            }
+            "main" if token.function.is_none() && word(index + 1) == "(" => has_main = true,
+            _ => {}
+        }
+    }
+    let has_derivatives = derivative::replace(&mut bytes, &tokens, function)?;
+    let prelude = if has_derivatives { derivative::GLSL } else { "" };
+    // Nothing but whole characters was replaced, by ASCII.
+    let mut prepared = format!("{prelude}{}", String::from_utf8_lossy(&bytes));
+    if !has_main {
+        prepared.push_str("\nvoid main() {}\n");
+    }
+    Ok(Prepared { text: prepared, prelude: prelude.len(), uniforms, initialised, has_derivatives, is_es })
+}
+
+/// Blanks directives that only tell a driver something; returns whether the version is one of OpenGL ES.
+fn blank_directives(bytes: &mut [u8]) -> bool {
+    let mut is_es = false;
+    for line in bytes.split_mut(|&byte| byte == b'\n') {
+        let text = String::from_utf8_lossy(line);
+        let Some(directive) = text.trim_start().strip_prefix('#') else { continue };
+        let mut words = directive.split_whitespace();
+        let name = words.next();
+        if matches!(name, Some("version" | "extension" | "pragma")) {
+            let version: Vec<_> = words.collect();
+            is_es |= name == Some("version") && (version.contains(&"es") || version.first() == Some(&"100"));
+            line.iter_mut().filter(|byte| **byte != b'\r').for_each(|byte| *byte = b' ');
+        }
+    }
+    is_es
+}
+
+/// A name of two letters that the text does not use.
+fn spare_name(tokens: &[Token], text: &str) -> String {
+    let is_used = |name: &String| tokens.iter().any(|token| text[token.at.clone()] == **name);
+    ('a'..='z')
+        .map(|letter| format!("_{letter}"))
+        .find(|name| !is_used(name))
+        .unwrap_or_else(|| "zz".to_owned())
+}

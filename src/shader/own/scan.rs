@@ -1,0 +1,121 @@
+//! A shader's text as words and signs, enough to prepare it for the parser: no grammar, no macros.
+
+use super::error::Fault;
+use core::ops::Range;
+
+/// A word or a sign of the text, outside of comments.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Token {
+    pub at: Range<usize>,
+    /// Round brackets that are open here.
+    pub parentheses: usize,
+    /// The function in whose body it stands: the index of the token of its name.
+    pub function: Option<usize>,
+}
+
+/// The deepest nesting of brackets and signs that is read; parsers descend once for each.
+const DEEPEST: usize = 200;
+
+/// The most `else` that are read, since each may nest in the one before.
+const MOST_ELSE: usize = 1000;
+
+/// Cuts a text into tokens: words (letters, digits, `_`) and single signs.
+///
+/// # Errors
+///
+/// Nesting too deep for a parser that descends.
+pub(super) fn tokens(text: &str) -> Result<Vec<Token>, Fault> {
+    let bytes = text.as_bytes();
+    let is_word = |byte: u8| byte.is_ascii_alphanumeric() || byte == b'_';
+    let mut tokens: Vec<Token> = Vec::new();
+    let (mut open, mut braces, mut parentheses) = (0_usize, 0_usize, 0_usize);
+    let (mut signs, mut elses) = (0_usize, 0_usize);
+    let (mut named, mut function) = (None, None);
+    let mut start = 0;
+    while start < bytes.len() {
+        let rest = &bytes[start..];
+        let length = match rest[0] {
+            b'/' if rest.starts_with(b"//") => {
+                start += until(rest, b"\n");
+                continue;
+            }
+            b'/' if rest.starts_with(b"/*") => {
+                start += 2 + until(&rest[2..], b"*/");
+                continue;
+            }
+            byte if byte.is_ascii_whitespace() || !byte.is_ascii() => {
+                start += 1;
+                continue;
+            }
+            byte if is_word(byte) => rest.iter().take_while(|&&byte| is_word(byte)).count(),
+            _ => 1,
+        };
+        let at = start..start + length;
+        match bytes[start] {
+            b'(' => {
+                if braces == 0 && parentheses == 0 {
+                    named = tokens.len().checked_sub(1);
+                }
+                parentheses += 1;
+            }
+            b')' => parentheses = parentheses.saturating_sub(1),
+            b'{' => {
+                if braces == 0 {
+                    function = named.take();
+                }
+                braces += 1;
+            }
+            b'}' => {
+                braces = braces.saturating_sub(1);
+                if braces == 0 {
+                    function = None;
+                }
+            }
+            b';' if braces == 0 => named = None,
+            _ => {}
+        }
+        match bytes[start] {
+            b'(' | b'[' | b'{' => open += 1,
+            b')' | b']' | b'}' => open = open.saturating_sub(1),
+            _ => {}
+        }
+        let is_prefix = matches!(bytes[start], b'-' | b'!' | b'~' | b'&' | b'*' | b'+' | b'<' | b'=');
+        signs = if is_prefix { signs + 1 } else { 0 };
+        elses += usize::from(&bytes[at.clone()] == b"else");
+        if open > DEEPEST || signs > DEEPEST || elses > MOST_ELSE {
+            let message = format!("nested too deeply: more than {DEEPEST} brackets or {MOST_ELSE} `else`");
+            return Err(Fault::new(message).at(Some(at)));
+        }
+        tokens.push(Token { at, parentheses, function });
+        start += length;
+    }
+    Ok(tokens)
+}
+
+/// The bytes up to the first `end`, or all.
+fn until(bytes: &[u8], end: &[u8]) -> usize {
+    bytes.windows(end.len()).position(|window| window == end).unwrap_or(bytes.len())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_know_their_function() {
+        let text = "float a(vec3 p) { /* b( */ return f(p); } // c\nfloat d;";
+        let tokens = tokens(text).unwrap();
+        let word = |name: &str| tokens.iter().position(|token| &text[token.at.clone()] == name).unwrap();
+        assert_eq!(tokens[word("return")].function, Some(word("a")));
+        assert_eq!(tokens[word("d")].function, None);
+        assert!(!tokens.iter().any(|token| matches!(&text[token.at.clone()], "b" | "c")));
+    }
+
+    #[test]
+    fn deep_nesting_is_refused() {
+        for text in ["(".repeat(300), "- ".repeat(300), "else if (x) {} ".repeat(2000)] {
+            assert!(tokens(&text).is_err());
+        }
+        assert!(tokens(&"()".repeat(300)).is_ok());
+    }
+}
