@@ -1,0 +1,313 @@
+//! The assembled WGSL against its Rust twins, on the interpreter: which are the same bits, and how far the others are
+//! apart.
+#![cfg(feature = "shader")]
+
+use core::num::{NonZeroU16, NonZeroU32};
+use hashed_alpha::scene::fragment::Fragment;
+use hashed_alpha::shader::assemble::{Coverage, FadeIn, ShaderOptions, Source, Stratify, assemble};
+use hashed_alpha::shader::export::{self, export};
+use hashed_alpha::shader::interpreter::DeviceModel;
+use hashed_alpha::shader::own::{self, OwnShader};
+use hashed_alpha::threshold::cdf::CdfForm;
+use hashed_alpha::threshold::footprint::Footprint;
+use hashed_alpha::threshold::hash::integer::pcg4d;
+use hashed_alpha::threshold::hash::{HashKind, open_lattice};
+use hashed_alpha::threshold::hashed::HashedAlpha;
+use hashed_alpha::threshold::robust::{Join, Repairs, Robust};
+use hashed_alpha::threshold::two_scale::Variant;
+use hashed_alpha::threshold::{coverage, fade_in, stratify};
+use rand::{RngExt, SeedableRng, rngs::Xoshiro256PlusPlus};
+
+/// Positions over eleven octaves, derivatives over sixteen, in general position; values that `f32` holds.
+fn fragments(count: usize) -> Vec<Fragment> {
+    let mut rng = Xoshiro256PlusPlus::seed_from_u64(0x5a17);
+    let mut uniform = |low: f32, high: f32| f64::from(rng.random_range(low..high));
+    (0..count)
+        .map(|i| {
+            let size = f64::from(libm::exp2(uniform(-1.0, 10.0)) as f32);
+            let derivative = libm::exp2(uniform(-14.0, 2.0));
+            let mut vector = |scale: f64| {
+                let mut component = || f64::from((uniform(-1.0, 1.0) * scale) as f32);
+                glam::DVec3::new(component(), component(), component())
+            };
+            let footprint =
+                Footprint { position: vector(size), dpdx: vector(derivative), dpdy: vector(derivative) };
+            Fragment {
+                pixel: glam::dvec2(f64::from(i as u32 % 1920) + 0.5, f64::from(i as u32 / 1920) + 0.5),
+                lod: f64::from(uniform(-2.0, 9.0) as f32),
+                frame: i as u32 * 7 % 64,
+                layer: i as u32 % 5,
+                ..footprint.into()
+            }
+        })
+        .collect()
+}
+
+fn read(options: &ShaderOptions, settings: &[(&str, &str)]) -> OwnShader {
+    let text = assemble(options).unwrap();
+    let settings = settings.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
+    let own_options = own::Options { settings, ..own::Options::default() };
+    own::parse("assembled", own::Language::Wgsl, text.as_bytes(), &own_options).unwrap()
+}
+
+fn run(shader: &OwnShader, fragments: &[Fragment]) -> Vec<f32> {
+    let program = shader.program().unwrap_or_else(|error| panic!("{error}"));
+    shader.thresholds(&program, fragments, &DeviceModel::ACCURATE).unwrap()
+}
+
+fn same(a: f32, b: f32) -> bool {
+    a.to_bits() == b.to_bits() || a.is_nan() && b.is_nan()
+}
+
+/// The share of thresholds that differ, and the largest difference.
+fn difference(found: &[f32], wanted: &[f32]) -> (f64, f64) {
+    assert_eq!(found.len(), wanted.len());
+    let differ = found.iter().zip(wanted).filter(|&(&a, &b)| !same(a, b)).count();
+    let largest =
+        found.iter().zip(wanted).map(|(&a, &b)| if same(a, b) { 0.0 } else { f64::from((a - b).abs()) });
+    (differ as f64 / found.len() as f64, largest.fold(0.0, f64::max))
+}
+
+fn degenerate() -> Vec<Fragment> {
+    let values = [0.0, -0.0, 1e-45, 1e-30, 0.25, -3.0, 1e10, 3e38, f32::INFINITY, f32::NAN].map(f64::from);
+    let mut fragments = Vec::new();
+    for position in values {
+        for dpdx in values {
+            for dpdy in values {
+                let footprint = Footprint {
+                    position: glam::dvec3(position, 0.3, position),
+                    dpdx: glam::dvec3(dpdx, 0.0, dpdx),
+                    dpdy: glam::dvec3(0.0, dpdy, dpdx),
+                };
+                fragments.push(footprint.into());
+            }
+        }
+    }
+    fragments
+}
+
+#[test]
+fn listings_are_the_same_bits() {
+    let mut fragments = fragments(4000);
+    fragments.extend(degenerate());
+    for form in CdfForm::ALL {
+        for variant in Variant::ALL {
+            for hash in HashKind::ALL {
+                for hash_scale in [1.0, 0.3] {
+                    let options = ShaderOptions {
+                        hash,
+                        source: Source::Listing(form),
+                        hash_scale: Some(hash_scale),
+                        ..ShaderOptions::listing(variant)
+                    };
+                    let found = run(&read(&options, &[]), &fragments);
+                    let twin = HashedAlpha { variant, hash, hash_scale: f64::from(hash_scale), form };
+                    for (fragment, found) in fragments.iter().zip(found) {
+                        let wanted: f32 = twin.threshold(&fragment.footprint.cast());
+                        assert!(same(found, wanted), "{options:?}\n{fragment:?}\n{found} {wanted}");
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn robust_twin(options: &ShaderOptions, fragments: &[Fragment]) -> Vec<f32> {
+    let Source::Robust(join) = options.source else { panic!("{options:?}") };
+    let twin = Robust {
+        variant: options.variant,
+        hash: options.hash,
+        hash_scale: options.hash_scale.map_or(1.0, f64::from),
+        join,
+        repairs: Repairs::ALL,
+    };
+    fragments.iter().map(|fragment| twin.threshold(&fragment.footprint.cast()).unwrap_or(0.5)).collect()
+}
+
+/// How far a robust threshold may be from its twin where octaves lie in (-`octaves`, `octaves`).
+///
+/// The twins differ in the weight: Rust takes the fraction of a rounded logarithm, which is off by half a unit in its
+/// last place, WGSL the logarithm of the mantissa, which is not. A threshold moves with its weight by at most 2
+/// (interpolate) or 6 (copula) times as much; the rest is rounding, and for the copula `f32` in the place of `f64`. The
+/// dithered join only compares the weight: one in a million fragments may change sides, none of these does.
+fn bound(join: Join, octaves: f64) -> f64 {
+    let of_weight = octaves * f64::from(f32::EPSILON) / 4.0;
+    match join {
+        Join::Interpolate => 2.0 * of_weight + libm::exp2(-22.0),
+        Join::Copula => 6.0 * of_weight + libm::exp2(-20.0),
+        Join::Dithered => 0.0,
+    }
+}
+
+#[test]
+fn robust_thresholds_differ_by_what_their_logarithms_do() {
+    let fragments = fragments(20_000);
+    for join in Join::ALL {
+        for variant in [Variant::Isotropic, Variant::Anisotropic] {
+            for hash in HashKind::ALL {
+                let options =
+                    ShaderOptions { hash, source: Source::Robust(join), ..ShaderOptions::robust(variant) };
+                let found = run(&read(&options, &[]), &fragments);
+                let (share, largest) = difference(&found, &robust_twin(&options, &fragments));
+                assert!(
+                    largest <= bound(join, 16.0),
+                    "{join} {variant} {hash}: {share} differ, by {largest:e}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn degenerate_footprints_have_the_robust_threshold_of_rust() {
+    let fragments = degenerate();
+    for join in Join::ALL {
+        for variant in [Variant::Isotropic, Variant::Anisotropic] {
+            let options = ShaderOptions { source: Source::Robust(join), ..ShaderOptions::robust(variant) };
+            let found = run(&read(&options, &[]), &fragments);
+            assert!(found.iter().all(|&threshold| threshold > 0.0 && threshold <= 1.0));
+            let (share, largest) = difference(&found, &robust_twin(&options, &fragments));
+            assert!(largest <= bound(join, 128.0), "{join} {variant}: {share} differ, by {largest:e}");
+        }
+    }
+}
+
+/// The effects in Rust on what the source gave.
+fn effects_twin(
+    options: &ShaderOptions,
+    fragment: &Fragment,
+    sample: u32,
+    texel: [f32; 2],
+    value: f32,
+) -> f32 {
+    let literal = options.source == Source::Listing(CdfForm::Literal);
+    let mut value = value;
+    if let Some(Stratify { frames, alternating }) = options.stratify {
+        let n = NonZeroU32::from(frames);
+        let frame = fragment.frame;
+        value = if literal {
+            let stratum = if alternating { stratify::alternating_literal(frame, n) } else { frame };
+            stratify::stratified_literal(value, stratum, n)
+        } else {
+            let stratum = if alternating { stratify::alternating(frame, n) } else { frame };
+            stratify::stratified(value, stratum, n)
+        };
+    }
+    if let Some(Coverage { samples, decorrelated }) = options.coverage {
+        let n = NonZeroU32::from(samples);
+        let [x, y] = fragment.pixel.to_array().map(|c| c as u32);
+        let words = pcg4d([x, y, fragment.frame, fragment.layer]);
+        let xi = [open_lattice::<f32>(words[1]), open_lattice(words[2])];
+        let stratum = match (decorrelated, literal) {
+            (false, _) => sample,
+            (true, true) => coverage::decorrelated_literal(xi, sample, n),
+            (true, false) => coverage::decorrelated(xi, sample, n),
+        };
+        value = if literal {
+            coverage::jittered_literal(value, stratum, n)
+        } else {
+            coverage::jittered(value, stratum, n)
+        };
+    }
+    if let Some(FadeIn { full_noise_lod, anisotropy }) = options.fade_in {
+        let ratio = match (anisotropy, literal) {
+            (false, _) => 1.0,
+            (true, true) => fade_in::anisotropy_literal(texel),
+            (true, false) => fade_in::anisotropy(texel),
+        };
+        let lod = fragment.lod as f32 * ratio;
+        value = if literal {
+            fade_in::fade_in_literal(value, fade_in::blend_literal(lod, full_noise_lod))
+        } else {
+            fade_in::fade_in(value, fade_in::blend(lod, full_noise_lod))
+        };
+    }
+    value
+}
+
+#[test]
+fn effects_are_the_same_bits() {
+    let fragments = fragments(1000);
+    let size = |n| NonZeroU16::new(n).unwrap();
+    for source in [Source::Listing(CdfForm::Literal), Source::Listing(CdfForm::Stable)] {
+        let plain =
+            ShaderOptions { source, hash: HashKind::Mm4, ..ShaderOptions::listing(Variant::Isotropic) };
+        let base = run(&read(&plain, &[]), &fragments);
+        for frames in [1, 2, 7, 8] {
+            for alternating in [false, true] {
+                for (decorrelated, anisotropy) in [(false, true), (true, false), (true, true)] {
+                    for texel in [[1.0, 1.0], [0.0, 1.0], [0.0, 0.0], [3.0, 0.5], [0.25, 9.0]] {
+                        let options = ShaderOptions {
+                            stratify: Some(Stratify { frames: size(frames), alternating }),
+                            coverage: Some(Coverage { samples: size(frames + 1), decorrelated }),
+                            fade_in: Some(FadeIn { full_noise_lod: 6.0, anisotropy }),
+                            ..plain
+                        };
+                        let sample = u32::from(frames) / 2;
+                        let written =
+                            [sample.to_string(), format!("{:?}", texel[0]), format!("{:?}", texel[1])];
+                        let mut settings = vec![("sample_index", written[0].as_str())];
+                        if anisotropy {
+                            settings.extend([("texel_dx", &*written[1]), ("texel_dy", &*written[2])]);
+                        }
+                        let found = run(&read(&options, &settings), &fragments);
+                        for ((fragment, &base), found) in fragments.iter().zip(&base).zip(found) {
+                            let wanted = effects_twin(&options, fragment, sample, texel, base);
+                            assert!(
+                                same(found, wanted),
+                                "{options:?} {texel:?}\n{fragment:?}\n{found} {wanted}"
+                            );
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_text_with_another_constant_is_seen() {
+    let fragments = fragments(1000);
+    let options = ShaderOptions { hash: HashKind::Mm4, ..ShaderOptions::listing(Variant::Isotropic) };
+    let text = assemble(&options).unwrap().replace("0x85ebca6bu", "0x85ebca6du");
+    let shader =
+        own::parse("broken", own::Language::Wgsl, text.as_bytes(), &own::Options::default()).unwrap();
+    let (share, _) = difference(&run(&shader, &fragments), &run(&read(&options, &[]), &fragments));
+    assert!(share > 0.9, "{share}");
+}
+
+#[test]
+fn a_coefficient_that_is_off_by_a_ten_thousandth_is_seen() {
+    let fragments = fragments(1000);
+    let options = ShaderOptions::robust(Variant::Anisotropic);
+    let text = assemble(&options).unwrap().replace("0.11113527", "0.11123527");
+    let shader =
+        own::parse("broken", own::Language::Wgsl, text.as_bytes(), &own::Options::default()).unwrap();
+    let (_, largest) = difference(&run(&shader, &fragments), &robust_twin(&options, &fragments));
+    assert!(largest > bound(Join::Copula, 16.0), "{largest:e}");
+}
+
+/// WGSL, GLSL and SPIR-V that were exported and read back are the same function.
+#[test]
+fn exports_read_back_are_the_same_bits() {
+    let mut fragments = fragments(1000);
+    fragments.extend(degenerate());
+    for variant in [Variant::Isotropic, Variant::Anisotropic] {
+        let joins = Join::ALL
+            .map(|join| ShaderOptions { source: Source::Robust(join), ..ShaderOptions::robust(variant) });
+        for options in joins.into_iter().chain([ShaderOptions::listing(variant)]) {
+            let wanted = run(&read(&options, &[]), &fragments);
+            for (language, read_as) in [
+                (export::Language::Wgsl, own::Language::Wgsl),
+                (export::Language::Glsl, own::Language::Glsl),
+                (export::Language::GlslEs, own::Language::Glsl),
+                (export::Language::SpirV, own::Language::SpirV),
+            ] {
+                let bytes = export(&options, language).unwrap();
+                let shader = own::parse(language.name(), read_as, &bytes, &own::Options::default()).unwrap();
+                let (share, largest) = difference(&run(&shader, &fragments), &wanted);
+                assert_eq!(share, 0.0, "{language} {options:?}: {largest}");
+            }
+        }
+    }
+}
