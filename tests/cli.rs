@@ -447,10 +447,52 @@ fn check_finds_mistakes_before_it_starts() {
 }
 
 #[test]
+fn a_shader_file_is_put_on_trial() {
+    let folder = tempfile::tempdir().unwrap();
+    let check = |text: &str| {
+        let file = folder.path().join("mine.wgsl");
+        std::fs::write(&file, text).unwrap();
+        let options = ["--on", "cpu", "--only", "range", "--budget", "quick", "--no-report"];
+        run(&[&["check", file.to_str().unwrap()][..], &options].concat(), "")
+    };
+    let good = check("fn threshold(position: vec3<f32>) -> f32 { return 0.5 + 0.0 * min(position.x, 0.0); }");
+    assert!(String::from_utf8(good.stdout).unwrap().contains("mine.wgsl"));
+    let not_a_number =
+        check("fn threshold(position: vec3<f32>) -> f32 { return sqrt(-1.0 - abs(position.x)); }");
+    assert_eq!(not_a_number.status.code(), Some(1));
+    for (text, message) in [
+        ("fn threshold(position: vec3<f32>) -> f32 {\n  return foo(position);\n}", "mine.wgsl:2:10: "),
+        ("fn threshold(p: vec3<f32>) -> f32 { return p.x; }", "mine.wgsl:1:1: parameter `p` "),
+        ("fn threshold() -> f32 {\n  loop {}\n  return 1.0;\n}", "mine.wgsl"),
+        ("", "the file is empty"),
+    ] {
+        let output = check(text);
+        let error = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{error}");
+        assert!(error.contains(message), "{error}");
+    }
+}
+
+#[test]
+fn a_threshold_is_printed_in_every_language() {
+    for (language, word) in
+        [("wgsl", "vec3<f32>"), ("glsl", "vec3 "), ("hlsl", "float3 "), ("msl", "metal::float3 ")]
+    {
+        let text = succeed(&["shader", "--lang", language], "");
+        assert!(text.contains("threshold") && text.contains(word), "{text}");
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("threshold.spv");
+    succeed(&["shader", "--lang", "spirv", "--out", file.to_str().unwrap()], "");
+    assert_eq!(std::fs::read(file).unwrap()[..4], 0x0723_0203_u32.to_le_bytes());
+    assert_eq!(run(&["shader", "--literal", "--join", "copula"], "").status.code(), Some(2));
+}
+
+#[test]
 fn help_tells_exit_codes_and_examples() {
     let help = succeed(&["--help"], "");
     assert!(help.contains("Exit codes:") && help.contains("Examples:"), "{help}");
-    for verb in ["check", "eval", "scenes"] {
+    for verb in ["check", "eval", "scenes", "shader"] {
         assert!(succeed(&[verb, "--help"], "").contains("Examples:"), "{verb}");
     }
     assert_eq!(succeed(&["--version"], ""), format!("hashed-alpha {}\n", env!("CARGO_PKG_VERSION")));

@@ -11,6 +11,8 @@ pub mod outcome;
 pub mod parity;
 pub mod results;
 pub mod sample;
+#[cfg(feature = "shader")]
+pub mod shaders;
 pub mod subject;
 pub mod suite;
 pub mod tolerance;

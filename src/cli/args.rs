@@ -5,6 +5,7 @@ use clap::{Parser, Subcommand};
 use hashed_alpha::check::subject::Precision;
 use hashed_alpha::check::{Budget, Suite};
 use hashed_alpha::scene::Scene;
+use hashed_alpha::shader::export::Language;
 use hashed_alpha::threshold::hash::HashKind;
 use hashed_alpha::threshold::robust::{Join, Repair};
 use hashed_alpha::threshold::two_scale::Variant;
@@ -44,6 +45,7 @@ pub enum Verb {
     Check(CheckArgs),
     Eval(EvalArgs),
     Scenes(ScenesArgs),
+    Shader(ShaderTextArgs),
 }
 
 /// Tries the claims on subjects and writes a report
@@ -53,6 +55,8 @@ Examples:
   hashed-alpha check
   hashed-alpha check paper robust
   hashed-alpha check paper:anisotropic --seed 7 --out report-7
+  hashed-alpha check my.wgsl --suite paper
+  hashed-alpha check my.glsl --function alpha_threshold --set hash_scale=2 --on device-model
   hashed-alpha check paper --json --no-report | jq 'select(.verdict == \"rejected\")'
   hashed-alpha check paper --suite paper
   hashed-alpha check paper --only stability --only range --budget quick
@@ -65,9 +69,12 @@ A file of known findings makes the exit code speak of news alone:
   precision = \"f32\"
   reason = \"all cells of one z share a bias\"")]
 pub struct CheckArgs {
-    /// Subjects to try: `paper`, `robust`, or one variant of them as in `paper:isotropic`; `robust` when none is given
+    /// Subjects to try: `paper`, `robust`, or one variant of them as in `paper:isotropic`; the same on a device as in
+    /// `gpu:robust`; a shader file that ends in .wgsl, .glsl or .spv. `robust` when none is given
     #[arg(value_name = "SUBJECT")]
     pub subjects: Vec<String>,
+    #[command(flatten)]
+    pub shader: ShaderArgs,
     /// Try the paper's listings to the letter: the same as the subject `paper`
     #[arg(long, conflicts_with = "subjects")]
     pub literal: bool,
@@ -96,6 +103,102 @@ pub struct CheckArgs {
     /// TOML file of findings that are known and do not count as rejected
     #[arg(long, value_name = "FILE")]
     pub expect: Option<PathBuf>,
+}
+
+/// Where a shader runs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum On {
+    /// On the GPU if there is one, in the interpreter otherwise.
+    #[default]
+    Auto,
+    /// On the GPU.
+    Gpu,
+    /// In the interpreter, with correctly rounded functions.
+    Cpu,
+    /// In the interpreter, under every model of a device.
+    DeviceModel,
+}
+
+impl On {
+    const ALL: [Self; 4] = [Self::Auto, Self::Gpu, Self::Cpu, Self::DeviceModel];
+
+    const fn name(self) -> &'static str {
+        match self {
+            Self::Auto => "auto",
+            Self::Gpu => "gpu",
+            Self::Cpu => "cpu",
+            Self::DeviceModel => "device-model",
+        }
+    }
+}
+
+/// What is to be known of a shader file
+#[derive(Debug, clap::Args)]
+#[command(next_help_heading = "Shaders")]
+pub struct ShaderArgs {
+    /// Function of a shader file that returns the threshold
+    #[arg(long, value_name = "NAME", default_value = "threshold")]
+    pub function: String,
+    /// Value of a parameter, uniform or override of a shader file; can be given several times
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
+    /// Where a shader runs: `auto` is the GPU if there is one and the interpreter otherwise, `device-model` is the interpreter
+    /// under the arithmetic of several devices
+    #[arg(long, default_value = "auto", value_parser = one_of(On::ALL, On::name))]
+    pub on: On,
+    /// Index of a GPU or part of its name; also in the variable HASHED_ALPHA_ADAPTER
+    #[arg(long, value_name = "GPU")]
+    pub adapter: Option<String>,
+    /// Which listing a shader file follows
+    #[arg(long, default_value = "isotropic", value_parser = one_of(Variant::ALL, Variant::name))]
+    pub variant: Variant,
+    /// How a shader file joins the hashes of two octaves; interpolate, as the paper, unless stated
+    #[arg(long, value_parser = one_of(Join::ALL, Join::name))]
+    pub join: Option<Join>,
+    /// A shader file cuts its cells between whole numbers, as the robust threshold does
+    #[arg(long)]
+    pub nested_phase: bool,
+    /// Over how many frames a shader file spreads its thresholds (Eq. 6)
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1024))]
+    pub frames: u32,
+}
+
+/// Prints the verified threshold in a shading language
+///
+/// A library function called `threshold`, without an entry point: paste it in front of the shader that calls it. A header says
+/// what it is and how it is called.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  hashed-alpha shader > threshold.wgsl
+  hashed-alpha shader --lang hlsl --variant anisotropic
+  hashed-alpha shader --lang spirv --out threshold.spv
+  hashed-alpha shader --lang wgsl --out mine.wgsl && hashed-alpha check mine.wgsl --nested-phase")]
+pub struct ShaderTextArgs {
+    /// Shading language
+    #[arg(long, default_value = "wgsl", value_parser = one_of(Language::ALL, Language::name))]
+    pub lang: Language,
+    /// How scales are chosen from the derivatives
+    #[arg(long, default_value = "isotropic", value_parser = one_of(Variant::ALL, Variant::name))]
+    pub variant: Variant,
+    /// What gives a cell its value; mm4 unless stated, sine as in the paper with --literal
+    #[arg(long, value_parser = one_of(HashKind::ALL, HashKind::name))]
+    pub hash: Option<HashKind>,
+    /// How the hashes of two octaves become one value; interpolate unless stated, copula for anisotropic
+    #[arg(long, value_parser = one_of(Join::ALL, Join::name))]
+    pub join: Option<Join>,
+    /// Size of the noise in pixels, above 0
+    #[arg(long, value_name = "S", default_value_t = 1.0)]
+    pub hash_scale: f32,
+    /// Make the size of the noise a parameter of the function
+    #[arg(long, conflicts_with = "hash_scale")]
+    pub hash_scale_parameter: bool,
+    /// Follow the listings to the letter, with their division by zero
+    #[arg(long)]
+    pub literal: bool,
+    /// File to write; standard output when none is given
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
 }
 
 /// Computes the threshold of every footprint of a CSV file

@@ -3,7 +3,7 @@
 use super::args::CheckArgs;
 use super::failure::Failure;
 use super::known::{self, Known};
-use super::{Ending, output};
+use super::{Ending, output, subjects};
 use hashed_alpha::check::claims::{self, Claim};
 use hashed_alpha::check::expectation::{Expectation, Judgement, judge};
 use hashed_alpha::check::results::excuse_the_listings;
@@ -23,7 +23,7 @@ pub fn run(args: &CheckArgs) -> Result<Ending, Failure> {
         [] => &["robust".to_owned()],
         typed => typed,
     };
-    let subjects = chosen(typed)?;
+    let subjects = subjects::subjects(typed, &args.shader)?;
     let claims = chosen_claims(&args.only)?;
     let known = args.expect.as_deref().map(known::read).transpose()?.unwrap_or_default();
     let folder = (!args.no_report).then_some(args.out.as_path());
@@ -67,22 +67,6 @@ fn this_run(seed: u64) -> Run {
     let typed = std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned());
     let command: Vec<_> = std::iter::once("hashed-alpha".to_owned()).chain(typed).collect();
     Run { command: command.join(" "), seed, version: env!("CARGO_PKG_VERSION").to_owned() }
-}
-
-/// Picks the subjects whose name was typed, in full or up to a colon.
-fn chosen(typed: &[String]) -> Result<Vec<Subject<'static>>, Failure> {
-    let mut all = Subject::paper();
-    all.extend(Subject::all_repairs());
-    let is_meant = |subject: &Subject<'_>, typed: &String| {
-        subject.name.strip_prefix(typed).is_some_and(|rest| rest.is_empty() || rest.starts_with(':'))
-    };
-    if let Some(unknown) = typed.iter().find(|typed| !all.iter().any(|subject| is_meant(subject, typed))) {
-        let mut names: Vec<_> = all.into_iter().map(|subject| subject.name).collect();
-        names.dedup();
-        return Err(Failure::Usage(format!("unknown subject `{unknown}`; known are {}", names.join(", "))));
-    }
-    all.retain(|subject| typed.iter().any(|typed| is_meant(subject, typed)));
-    Ok(all)
 }
 
 /// Picks the claims that were typed, by their identifier or family; all where nothing was.
@@ -145,24 +129,6 @@ fn ending(outcomes: &[Outcome], judgement: &Judgement) -> Ending {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn names(typed: &[&str]) -> Result<Vec<String>, String> {
-        let typed: Vec<String> = typed.iter().map(ToString::to_string).collect();
-        let found = chosen(&typed).map_err(|error| error.to_string())?;
-        Ok(found.iter().map(|subject| format!("{} {}", subject.name, subject.precision)).collect())
-    }
-
-    #[test]
-    fn a_name_before_a_colon_stands_for_all_behind_it() {
-        assert_eq!(names(&["paper:isotropic"]).unwrap(), ["paper:isotropic f32", "paper:isotropic f64"]);
-        assert_eq!(names(&["paper", "paper:isotropic"]), names(&["paper"]));
-        assert_eq!(names(&["paper"]).unwrap().len(), 4);
-        let error = names(&["paper", "pap"]).unwrap_err();
-        assert_eq!(
-            error,
-            "unknown subject `pap`; known are paper:isotropic, paper:anisotropic, robust:isotropic, robust:anisotropic"
-        );
-    }
 
     #[test]
     fn a_rejection_outweighs_a_missing_answer() {

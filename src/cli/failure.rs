@@ -2,6 +2,7 @@
 
 use super::rows::RowError;
 use hashed_alpha::report::directory::ReportError;
+use hashed_alpha::shader::own::ShaderError;
 use std::error::Error;
 use std::io;
 
@@ -27,6 +28,9 @@ pub enum Failure {
     /// The report cannot be written.
     #[error(transparent)]
     Report(#[from] ReportError),
+    /// A shader cannot be put on trial.
+    #[error(transparent)]
+    Shader(#[from] ShaderError),
     /// Something that was typed does not have a meaning.
     #[error("{0}")]
     Usage(String),

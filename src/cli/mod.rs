@@ -3,7 +3,8 @@
 //! | module | holds |
 //! |---|---|
 //! | [`args`] | verbs, options and their help |
-//! | [`eval`], [`scenes`], [`check`] | one job a verb |
+//! | [`check`], [`eval`], [`scenes`], [`shader`] | one job a verb |
+//! | [`subjects`] | what a typed subject means, and where it runs |
 //! | [`rows`] | footprints as comma-separated text, read and written |
 //! | [`known`] | the TOML list of known findings |
 //! | [`output`] | the two streams: results on stdout, remarks on stderr |
@@ -19,6 +20,8 @@ mod known;
 mod output;
 mod rows;
 mod scenes;
+mod shader;
+mod subjects;
 
 pub use args::Args;
 
@@ -46,6 +49,7 @@ pub fn run(args: &Args) -> Result<Ending, Failure> {
         Verb::Check(args) => check::run(args),
         Verb::Eval(args) => eval::run(args),
         Verb::Scenes(args) => scenes::run(args),
+        Verb::Shader(args) => shader::run(args),
     }
 }
 

@@ -44,6 +44,54 @@ struct Claim<'a> {
     alt: String,
 }
 
+/// A row of the overview: one claim, and for each subject a link to its answer.
+#[derive(Serialize)]
+struct Row<'a> {
+    check: &'a str,
+    cells: Vec<Option<Cell>>,
+}
+
+/// An answer in the overview.
+#[derive(Serialize)]
+struct Cell {
+    id: String,
+    class: &'static str,
+    verdict: &'static str,
+    sign: &'static str,
+}
+
+/// Returns the names of the subjects, and the claims in rows over them; nothing where one subject makes a table enough.
+fn overview<'a>(claims: &[Claim<'a>]) -> (Vec<String>, Vec<Row<'a>>) {
+    let name = |claim: &Claim<'a>| format!("{} {}", claim.subject, claim.precision);
+    let mut subjects: Vec<String> = Vec::new();
+    let mut rows: Vec<Row<'a>> = Vec::new();
+    for claim in claims {
+        let name = name(claim);
+        if !subjects.contains(&name) {
+            subjects.push(name);
+        }
+        if !rows.iter().any(|row| row.check == claim.check) {
+            rows.push(Row { check: claim.check, cells: Vec::new() });
+        }
+    }
+    for row in &mut rows {
+        let of = |subject: &String| claims.iter().find(|c| c.check == row.check && name(c) == *subject);
+        row.cells = subjects.iter().map(|subject| of(subject).map(cell)).collect();
+    }
+    if subjects.len() > 1 { (subjects, rows) } else { (Vec::new(), Vec::new()) }
+}
+
+fn cell(claim: &Claim<'_>) -> Cell {
+    let sign = match claim.class {
+        "good" => "✓",
+        "bad" => "✗",
+        "known" => "(✗)",
+        "open" => "?",
+        _ => "–",
+    };
+    Cell { id: claim.id.clone(), class: claim.class, verdict: claim.verdict, sign }
+}
+
 /// Returns the page.
 ///
 /// `pictures` holds one file name an outcome, relative to the page, or `None` where there is no picture.
@@ -61,6 +109,12 @@ pub fn page(
     let pictures = pictures.iter().map(Option::as_deref).chain(std::iter::repeat(None));
     let claims: Vec<_> =
         outcomes.iter().zip(pictures).enumerate().map(|(i, (o, p))| claim(i, o, p)).collect();
+    let (subjects, rows) = overview(&claims);
+    let mut listed: Vec<&Claim<'_>> = claims.iter().collect();
+    // What needs a reader comes first.
+    listed.sort_by_key(|claim| {
+        ["bad", "open", "known"].iter().position(|class| *class == claim.class).unwrap_or(3)
+    });
     let (headline, class) = headline(outcomes);
     environment.get_template(TEMPLATE)?.render(context! {
         headline,
@@ -70,7 +124,9 @@ pub fn page(
         // As text: a template engine may hold numbers as `f64`.
         seed => run.seed.to_string(),
         version => run.version.as_str(),
-        claims => Serde(&claims),
+        subjects,
+        rows => Serde(&rows),
+        claims => Serde(&listed),
     })
 }
 

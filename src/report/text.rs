@@ -164,7 +164,9 @@ fn push_row(text: &mut String, cells: &[String; 8], widths: &[usize; 8], paint: 
 }
 
 fn push_finding(text: &mut String, outcome: &Outcome, paint: Option<&str>) {
-    let Some(remark) = remark(outcome) else { return };
+    // What is known needs no evidence in a terminal; the page has it.
+    let known = outcome.known.as_ref().map(|reason| format!("known: {reason}"));
+    let Some(remark) = known.or_else(|| remark(outcome)) else { return };
     for line in wrap(&remark, COLUMNS - INDENT.len()) {
         match paint {
             Some(paint) => push_line(text, &format!("{INDENT}{paint}{line}{RESET}")),

@@ -161,6 +161,12 @@ pub fn parse(
 }
 
 impl OwnShader {
+    /// Says that something is wrong with a part of the module.
+    #[must_use]
+    pub fn error_at(&self, span: Span, message: String) -> ShaderError {
+        ShaderError { file: self.file.clone(), place: self.place(span), message }
+    }
+
     /// Returns where in the user's text a part of the module stands.
     #[must_use]
     pub fn place(&self, span: Span) -> Option<Place> {
