@@ -17,6 +17,15 @@ pub enum Evidence {
     },
     /// Measured shares beside those that are predicted.
     Comparison(Vec<ComparedShare>),
+    /// Measured values of any quantity beside those that are predicted.
+    Quantity {
+        /// What `x` is, with its unit in brackets.
+        abscissa: &'static str,
+        /// What is measured, with its unit in brackets.
+        ordinate: &'static str,
+        /// The values.
+        points: Vec<ComparedShare>,
+    },
 }
 
 /// A histogram with the name of its group.

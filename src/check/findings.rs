@@ -54,6 +54,25 @@ pub const OF_THE_LISTINGS: &[Finding] = &[
         reason: "Listing 2 has no threshold on a plane of constant z: dz is 0 and the weight NaN",
     },
     Finding {
+        check: "uniform.constant_x",
+        variants: LISTING_2,
+        precisions: BOTH,
+        reason: "Listing 2 has no threshold on a plane of constant x: dx is 0 and the weight NaN",
+    },
+    Finding {
+        check: "uniform.constant_y",
+        variants: LISTING_2,
+        precisions: BOTH,
+        reason: "Listing 2 has no threshold on a plane of constant y: dy is 0 and the weight NaN",
+    },
+    Finding {
+        check: "coverage.mean_aligned",
+        variants: LISTING_2,
+        precisions: BOTH,
+        reason: "Listing 2 divides by zero where neither derivative moves along an axis: NaN on axis- \
+                 aligned planes",
+    },
+    Finding {
         check: "range.degenerate",
         variants: LISTING_1,
         precisions: BOTH,

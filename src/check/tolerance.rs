@@ -222,3 +222,69 @@ pub const RESONANCES: [[i32; 2]; 5] = [[355, 0], [710, 0], [3726, -232], [3460, 
 
 /// Pairs of cells at each resonance: shows a correlation of 0.03.
 pub const RESONANCE_PAIRS: usize = 1 << 16;
+
+// Noise as a whole: its size, its spectrum, the variance of coverage.
+
+/// Derivatives of a sheet times its hash scale lie in the octave from this one on: coarse cells of 2^-5 units, a
+/// thousandth of a cell being eighty roundings of an `f32` position within [`PLACEMENT`].
+pub const SHEET_OCTAVES: f64 = -6.0;
+
+/// No object axis of a sheet has less than this share of the largest derivative: twice the share to which the robust
+/// threshold raises it.
+pub const LEAST_AXIS_SHARE: f64 = 1.0 / 16.0;
+
+/// How much longer one derivative is than the other where a surface is tilted: two octaves, 75 degrees.
+pub const TILT_STRETCH: f64 = 4.0;
+
+/// Scan lines of each kind, along each screen axis: sees a size of the noise that is off by a tenth, which four hundred
+/// would not.
+pub const SCAN_LINES: usize = 1 << 10;
+
+/// Steps of a scan line, an eighth of the claimed size each: four times that size, so that lines of any sheet change some
+/// cells and the count of changes is not all chance.
+pub const SCAN_STEPS: u32 = 32;
+
+/// Steps of a scan line within the claimed size: also the smallest cells, half of that size, are left by one step in
+/// four only.
+pub const STEPS_A_SIZE: f64 = 8.0;
+
+/// Samples of each surface on which coverage is measured: every share is known to 0.3 %.
+pub const COVERAGE_SAMPLES: usize = 1 << 15;
+
+/// Alphas at which coverage is measured on each surface, among them those of a thin and of a dense texture.
+pub const COVERAGE_ALPHAS: [f64; 4] = [0.1, 0.3, 0.5, 0.9];
+
+/// Blocks whose coverage is compared with each other: a variance is known to 3 % on either side of lerp factor 1/2.
+pub const COVERAGE_BLOCKS: usize = 1 << 12;
+
+/// Blocks that share a sheet, each at a place of its own.
+pub const BLOCKS_A_SHEET: usize = 16;
+
+/// Places along a side of a block, half the claimed size of the noise apart: a block holds some thirty cells, so that its
+/// mean is near normal.
+pub const BLOCK_SIDE: usize = 12;
+
+/// Alphas at which the variance is measured: the kurtosis of a kept cell is then negative, which errs on the safe side.
+pub const VARIANCE_ALPHAS: [f64; 3] = [0.3, 0.5, 0.7];
+
+/// Largest difference of two values that count as equal but for rounding: sixteen roundings of an `f32` near 1.
+pub const EQUAL_WITHIN: f64 = 1.0e-6;
+
+/// Samples of each of two subjects whose laws are compared: 256 expected in every cell of the table.
+pub const COMPARED_SAMPLES: usize = 1 << 16;
+
+/// Images of each kind of sheet on each side of lerp factor 1/2: enough for a usable tail of Student's law, and to see a
+/// correlation that is off by a tenth, or half the power of the lowest frequencies missing.
+pub const SPECTRUM_IMAGES: usize = 64;
+
+/// Images that share a sheet, each at a place of its own: the expected spectrum costs more than an image.
+pub const IMAGES_A_SHEET: usize = 4;
+
+/// Pixels along a side of an image, one claimed size of the noise apart: 256 cells or more.
+pub const SPECTRUM_SIDE: usize = 32;
+
+/// Lags along each axis up to which the autocorrelation is tried, in claimed sizes: a cell is at most two sizes long.
+pub const LAGS: i64 = 4;
+
+/// Rings of frequencies from 0 to half a cycle for each claimed size: the first has eleven ordinates an image.
+pub const RINGS: usize = 6;

@@ -61,8 +61,9 @@ impl Extend<f64> for Histogram {
     }
 }
 
-/// The bin of `x` among `bins` equal ones over `[0, 1]`; `None` for NaN and for what is outside.
-pub(super) fn bin_of(x: f64, bins: usize) -> Option<usize> {
+/// Gives the bin of `x` among `bins` equal ones over `[0, 1]`; `None` for NaN and for what is outside.
+#[must_use]
+pub fn bin_of(x: f64, bins: usize) -> Option<usize> {
     (0.0..=1.0).contains(&x).then(|| ((x * bins as f64) as usize).min(bins - 1))
 }
 

@@ -3,13 +3,18 @@
 pub mod atoms;
 pub mod cells;
 pub mod continuity;
+pub mod coverage;
 pub mod degenerate;
 pub mod exact;
 pub mod hash;
 pub mod independence;
 pub mod layers;
+pub mod noise_scale;
 pub mod planes;
 pub mod range;
+mod replicas;
+pub mod single_planes;
+pub mod spectrum;
 pub mod stability;
 pub mod uniform;
 
@@ -70,7 +75,13 @@ pub const ALL: &[Claim] = &[
     uniform::COVERAGE,
     uniform::BY_LERP_FACTOR,
     uniform::WITHOUT_CDF,
-    uniform::CONSTANT_Z,
+    single_planes::CONSTANT_X,
+    single_planes::CONSTANT_Y,
+    single_planes::CONSTANT_Z,
+    single_planes::ANY_DIRECTION,
+    coverage::MEAN,
+    coverage::MEAN_ALIGNED,
+    coverage::VARIANCE,
     independence::NEIGHBOURS,
     independence::DIAGONALS,
     independence::ACROSS_ZERO,
@@ -82,6 +93,12 @@ pub const ALL: &[Claim] = &[
     layers::PARALLEL,
     stability::TRANSLATE,
     stability::TRANSLATE_ALIGNED,
+    noise_scale::FRONTAL,
+    noise_scale::TILTED,
+    spectrum::AUTOCORRELATION,
+    spectrum::ORDINATES,
+    spectrum::RADIAL,
+    spectrum::ANISOTROPY,
     planes::AXIS_ALIGNED,
     planes::DYADIC,
     continuity::ZOOM,

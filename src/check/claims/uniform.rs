@@ -5,11 +5,10 @@ use super::{Attempt, Claim, Conclusion, Promise, Trial};
 use crate::check::evidence::NamedHistogram;
 use crate::check::sample::{general_scenes, independent};
 use crate::check::tolerance::{
-    BINS, DRAWS_A_PLACE, LEAST_GROUP, LERP_GROUPS, MARGINAL_SAMPLES, PLANE_SAMPLES, PLANES, POWER,
-    SINGLE_LEVEL,
+    BINS, DRAWS_A_PLACE, LEAST_GROUP, LERP_GROUPS, MARGINAL_SAMPLES, POWER, SINGLE_LEVEL,
 };
 use crate::check::{Draw, Evidence, Subject, Verdict};
-use crate::scene::{Fragment, Scene};
+use crate::scene::Fragment;
 use crate::stats::chi_square::{self, ChiSquare};
 use crate::stats::histogram::Histogram;
 use crate::stats::{ecdf, power};
@@ -54,16 +53,6 @@ pub const WITHOUT_CDF: Claim = Claim {
     run: without_cdf,
 };
 
-/// Chi-square on single planes of constant z, summed: biases of the planes add up and do not cancel.
-pub const CONSTANT_Z: Claim = Claim {
-    id: "uniform.constant_z",
-    anchor: "§5.1 (hash3D), not in the paper",
-    statement: "thresholds on each single plane of constant z are uniform",
-    expected: Verdict::Consistent,
-    promise: Some(Promise::Linear(7.0e-3)),
-    run: constant_z,
-};
-
 /// Samples of a marginal claim: enough that no group of lerp factors is left out.
 fn marginal_size(draw: &Draw) -> usize {
     draw.samples(MARGINAL_SAMPLES).max(2 * LERP_GROUPS * LEAST_GROUP)
@@ -91,14 +80,14 @@ pub(super) fn reject_outsiders<F: Copy + Into<Fragment>>(samples: &[F], values: 
     }
 }
 
-fn histogram(values: impl IntoIterator<Item = f64>) -> Histogram {
+pub(super) fn histogram(values: impl IntoIterator<Item = f64>) -> Histogram {
     let mut histogram = Histogram::new(BINS);
     histogram.extend(values);
     histogram
 }
 
 /// Tests one histogram; `None` if it has too few samples.
-fn uniformity(histogram: &Histogram) -> Option<ChiSquare> {
+pub(super) fn uniformity(histogram: &Histogram) -> Option<ChiSquare> {
     (histogram.total() >= LEAST_GROUP as u64).then(|| chi_square::uniform(histogram.counts()).ok()).flatten()
 }
 
@@ -174,37 +163,4 @@ fn uniformity_by_lerp_factor(subject: &Subject<'_>, samples: &[Fragment], values
         .collect();
     let tests: Vec<_> = tested.iter().map(|&(_, test)| test).collect();
     Trial::worst_of(&tests, tests.iter().map(|test| test.n).sum(), seen, Evidence::Histograms(evidence))
-}
-
-fn constant_z(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
-    let mut rng = draw.rng(CONSTANT_Z.id);
-    let wall: Vec<Scene> = Scene::all().into_iter().filter(|scene| scene.name == "wall").collect();
-    let mut tests: Vec<ChiSquare> = Vec::new();
-    let mut evidence = Vec::new();
-    let mut worst_bias = 0.0_f64;
-    for _ in 0..PLANES {
-        // One place for all of a plane's samples: each plane has one z.
-        let samples = independent(subject, &wall, draw.samples(PLANE_SAMPLES), usize::MAX, &mut rng);
-        let values = subject.thresholds(&samples);
-        reject_outsiders(&samples, &values)?;
-        let counts = histogram(values);
-        tests.extend(uniformity(&counts));
-        let below_half: u64 = counts.counts()[..BINS / 2].iter().sum();
-        let bias = below_half as f64 / counts.total() as f64 - 0.5;
-        if bias.abs() > worst_bias.abs() {
-            worst_bias = bias;
-        }
-        let z = samples.first().map_or(f64::NAN, |sample| sample.footprint.position.z);
-        evidence.push(NamedHistogram { name: format!("z = {z:.3}"), counts: counts.counts().to_vec() });
-    }
-    let Some(sum) =
-        tests.into_iter().reduce(|a, b| ChiSquare::new(a.statistic + b.statistic, a.dof + b.dof, a.n + b.n))
-    else {
-        return Ok(Trial::without(Conclusion::Inconclusive, "the wall gave no samples"));
-    };
-    let seen = format!(
-        "each plane has a bias of its own: the share of thresholds up to 1/2 is off by up to {:+.2} %",
-        100.0 * worst_bias
-    );
-    Ok(Trial::worst_of(&[sum], sum.n, seen, Evidence::Histograms(evidence)))
 }

@@ -9,6 +9,7 @@ use super::style::{
 use crate::check::evidence::{ComparedShare, NamedHistogram};
 use crate::check::{Evidence, Outcome};
 use crate::report::answer;
+use core::ops::Range;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
 
@@ -23,7 +24,11 @@ pub fn evidence(outcome: &Outcome) -> Option<String> {
         Evidence::Pairs { side, counts } => Some(pairs(&title, *side, counts)),
         Evidence::Comparison(shares) => {
             let is_shift = outcome.check.starts_with("stability");
-            Some(comparison(&title, if is_shift { "shift [pixels]" } else { "x" }, shares))
+            let x = if is_shift { "shift [pixels]" } else { "x" };
+            Some(comparison(&title, x, Axis::new("share", shares_range(shares), 5), shares))
+        }
+        Evidence::Quantity { abscissa, ordinate, points } => {
+            Some(comparison(&title, abscissa, Axis::new(ordinate, value_range(points), 5), points))
         }
     }
 }
@@ -188,19 +193,18 @@ fn axes(area: &Canvas<'_>, side: i32, left: i32) -> Drawn {
     area.draw_text("first threshold", &title.transform(FontTransform::Rotate270), (16, side / 2))
 }
 
-/// Draws measured shares with bars of three standard deviations on the predicted curve of their series, and below
+/// Draws measured values with bars of three standard deviations on the predicted curve of their series, and below
 /// their distance from it in standard deviations.
 #[must_use]
-pub fn comparison(title: &str, x_title: &str, shares: &[ComparedShare]) -> String {
+pub(super) fn comparison(title: &str, x_title: &str, y: Axis<'_>, shares: &[ComparedShare]) -> String {
     let series = by_series(shares);
     let note = (Key::Note, "points: measured ± 3σ, lines: predicted");
     let keys = series.iter().enumerate().map(|(i, (name, _))| (Key::Series(i), *name));
     let entries: Vec<_> = keys.chain([note]).collect();
     let strip = legend_height(&entries, WIDTH as i32 - 120);
-    let (low, high) = shares.iter().fold((0.0_f64, 0.0_f64), |(low, high), s| (low.min(s.x), high.max(s.x)));
-    let margin = if high > low { 0.03 * (high - low) } else { 1.0 };
-    let range = if low < 0.0 { low - margin } else { 0.0 }..high + margin;
-    let highest = shares.iter().map(|s| s.predicted.max(s.measured + 3.0 * s.sigma)).fold(0.0, f64::max);
+    let (low, high) = shares.iter().fold((1.0_f64, 0.0_f64), |(low, high), s| (low.min(s.x), high.max(s.x)));
+    let margin = if high > low.min(0.0) { 0.03 * (high - low.min(0.0)) } else { 1.0 };
+    let range = if low <= 0.0 { low - margin } else { 0.0 }..high + margin;
     let reach =
         shares.iter().map(|s| standardised(s).abs()).filter(|z| z.is_finite()).fold(4.0, f64::max) * 1.1;
     picture(title, TITLE_STRIP + strip + 620 + 380, |area| {
@@ -208,7 +212,6 @@ pub fn comparison(title: &str, x_title: &str, shares: &[ComparedShare]) -> Strin
         legend(&top.margin(0, 0, 100, 20), &entries)?;
         let (upper, lower) = body.split_vertically(620);
         let mut x = Axis { terse: true, numbered: false, ..Axis::new("", range, 8) };
-        let y = Axis::new("share", share_range(highest), 5);
         let residual = Axis::new("distance [σ]", -reach..reach, 4);
         // Both charts begin at the same place, whatever the length of their numbers.
         let lefts = [&y, &residual].map(Axis::left_room);
@@ -240,6 +243,23 @@ pub fn comparison(title: &str, x_title: &str, shares: &[ComparedShare]) -> Strin
         }
         Ok(())
     })
+}
+
+/// Returns the range of all shares with their bars, from 0.
+fn shares_range(shares: &[ComparedShare]) -> Range<f64> {
+    share_range(shares.iter().map(|s| s.predicted.max(s.measured + 3.0 * s.sigma)).fold(0.0, f64::max))
+}
+
+/// Returns the range of all values with their bars, and a little more.
+fn value_range(points: &[ComparedShare]) -> Range<f64> {
+    let ends = |s: &ComparedShare| [s.measured - 3.0 * s.sigma, s.measured + 3.0 * s.sigma, s.predicted];
+    let finite = || points.iter().flat_map(ends).filter(|value| value.is_finite());
+    let (low, high) = (finite().fold(f64::INFINITY, f64::min), finite().fold(f64::NEG_INFINITY, f64::max));
+    if low > high {
+        return 0.0..1.0;
+    }
+    let room = (0.08 * (high - low)).max(1e-6);
+    low - room..high + room
 }
 
 /// Returns the distance from the prediction in standard deviations; infinite where none was allowed.
@@ -318,9 +338,12 @@ mod tests {
             share("fence, along y", 0.1, 0.25, 0.0),
             share("fence, along x", 0.1, 0.3, 0.0),
         ];
-        let svg = comparison("comparison", "shift [pixels]", &shares);
+        let svg =
+            comparison("comparison", "shift [pixels]", Axis::new("share", shares_range(&shares), 5), &shares);
         is_sound(&svg, &["fence, along x", "fence, along y", "shift [pixels]", "share", "distance [σ]"]);
         assert_eq!(by_series(&shares)[0].1[0].x, 0.1);
-        is_sound(&comparison("none", "x", &[]), &[]);
+        is_sound(&comparison("none", "x", Axis::new("variance", value_range(&[]), 5), &[]), &[]);
+        let range = value_range(&[share("a", 0.0, 0.25, 0.1)]);
+        assert!(range.start < -0.05 && range.end > 0.55, "{range:?}");
     }
 }

@@ -1,0 +1,200 @@
+//! Coverage, surface by surface: its mean, and how much it varies from place to place.
+//!
+//! A pooled test lets the errors of two surfaces cancel, and a mean says nothing of clumps: neighbouring pixels share
+//! cells, so the coverage of a block of pixels varies more than that of as many coins, by the design effect.
+
+use super::uniform::reject_outsiders;
+use super::{Attempt, Claim, Conclusion, Promise, Trial, stability};
+use crate::check::evidence::ComparedShare;
+use crate::check::kinship::Kinship;
+use crate::check::sample::{general_scenes, independent};
+use crate::check::sheet::Sheet;
+use crate::check::subject::Nominal;
+use crate::check::tolerance::{
+    BLOCK_SIDE, BLOCKS_A_SHEET, COVERAGE_ALPHAS, COVERAGE_BLOCKS, COVERAGE_SAMPLES, POWER, SINGLE_LEVEL,
+    TILT_STRETCH, VARIANCE_ALPHAS,
+};
+use crate::check::{Draw, Evidence, Subject, Verdict};
+use crate::scene::{Fragment, Scene};
+use crate::stats::variance::Variance;
+use crate::stats::{binomial, power};
+use glam::DVec2;
+
+/// Share kept on each surface in general position.
+pub const MEAN: Claim = Claim {
+    id: "coverage.mean",
+    anchor: "§4 (expected visibility is alpha)",
+    statement: "on each surface in general position, fragments of alpha 0.1, 0.3, 0.5 and 0.9 are kept with just that \
+                probability",
+    expected: Verdict::Consistent,
+    promise: Some(Promise::Root(0.06)),
+    run: |subject, draw| mean(&MEAN, general_scenes(), subject, draw),
+};
+
+/// The same on walls, floors and cards.
+pub const MEAN_ALIGNED: Claim = Claim {
+    id: "coverage.mean_aligned",
+    anchor: "§4 (expected visibility is alpha)",
+    statement: "on each wall, floor and card, fragments of alpha 0.1, 0.3, 0.5 and 0.9 are kept with just that \
+                probability",
+    expected: Verdict::Consistent,
+    promise: Some(Promise::Root(0.06)),
+    run: |subject, draw| {
+        let aligned = Scene::all().into_iter().filter(|scene| !scene.general_position).collect();
+        mean(&MEAN_ALIGNED, aligned, subject, draw)
+    },
+};
+
+/// Variance of the coverage of blocks, on either side.
+pub const VARIANCE: Claim = Claim {
+    id: "coverage.variance",
+    anchor: "§4, §5.4; closed form not in the paper",
+    statement: "the coverage of blocks of a surface varies as much as cells of the claimed size make it: not more, as \
+                clumps would, and not less, as white or ordered noise would",
+    expected: Verdict::Consistent,
+    promise: Some(Promise::Root(0.6)),
+    run: variance,
+};
+
+fn mean(claim: &Claim, scenes: Vec<Scene>, subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
+    let mut rng = draw.rng(claim.id);
+    let mut points = Vec::new();
+    let (mut n, mut least_p) = (0, 1.0_f64);
+    for scene in scenes {
+        // A place for every sample: the law of one single plane is another claim.
+        let name = scene.name;
+        let samples = independent(subject, &[scene], draw.samples(COVERAGE_SAMPLES), 1, &mut rng);
+        let values = subject.thresholds(&samples);
+        reject_outsiders(&samples, &values)?;
+        let count = values.len() as u64;
+        if count == 0 {
+            continue;
+        }
+        for alpha in COVERAGE_ALPHAS {
+            let kept = values.iter().filter(|&&threshold| threshold <= alpha).count() as u64;
+            least_p = least_p.min(binomial::two_sided_p(kept, count, alpha));
+            points.push(ComparedShare {
+                series: name.to_owned(),
+                x: alpha,
+                measured: kept as f64 / count as f64,
+                predicted: alpha,
+                sigma: (alpha * (1.0 - alpha) / count as f64).sqrt(),
+            });
+        }
+        n += count;
+    }
+    let z = |point: &ComparedShare| (point.measured - point.predicted) / point.sigma;
+    let Some(worst) = points.iter().max_by(|a, b| z(a).abs().total_cmp(&z(b).abs())) else {
+        return Ok(Trial::without(Conclusion::Inconclusive, "the scenes gave no samples"));
+    };
+    Ok(Trial {
+        conclusion: Conclusion::Probability((least_p * points.len() as f64).min(1.0)),
+        statistic: Some(z(worst)),
+        statistic_name: format!("z, worst of {}", points.len()),
+        n,
+        effect: points.iter().map(|point| (point.measured - point.predicted).abs()).reduce(f64::max),
+        effect_name: "error in coverage",
+        detectable: stability::detectable(&points),
+        seen: format!("{}: {:.2} % are kept at alpha {}", worst.series, 100.0 * worst.measured, worst.x),
+        evidence: Evidence::Quantity { abscissa: "alpha", ordinate: "share kept", points },
+    })
+}
+
+/// The blocks of one kind: how far the coverage of each is from alpha, in predicted standard deviations.
+struct Blocks {
+    name: &'static str,
+    scores: [Vec<f64>; VARIANCE_ALPHAS.len()],
+}
+
+fn variance(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
+    let mut rng = draw.rng(VARIANCE.id);
+    // What is wrong with the weights of two octaves has another sign on the other side of 1/2.
+    let mut groups = ["lerp factor below 1/2", "lerp factor above 1/2"]
+        .map(|name| Blocks { name, scores: Default::default() });
+    let sheets = draw.samples(COVERAGE_BLOCKS).div_ceil(BLOCKS_A_SHEET);
+    for index in 0..sheets {
+        let stretch = [1.0, TILT_STRETCH, 1.0 / TILT_STRETCH][index % 3];
+        let sheet = Sheet::draw(subject, stretch, &mut rng);
+        let spacing = 0.5 * subject.hash_scale;
+        let blocks: Vec<Fragment> = (0..BLOCKS_A_SHEET)
+            .flat_map(|_| sheet.image(subject, [BLOCK_SIDE; 2], spacing, &mut rng))
+            .collect();
+        let values = subject.thresholds(&blocks);
+        reject_outsiders(&blocks, &values)?;
+        let nominal = subject.nominal(&blocks[0].footprint);
+        let above = nominal.lerp_factor >= 0.5;
+        let predicted = predicted_variances(subject, &sheet, &nominal, spacing);
+        for ((alpha, predicted), scores) in
+            VARIANCE_ALPHAS.into_iter().zip(predicted).zip(&mut groups[usize::from(above)].scores)
+        {
+            scores.extend(values.chunks_exact(BLOCK_SIDE * BLOCK_SIDE).map(|block| {
+                let kept = block.iter().filter(|&&threshold| threshold <= alpha).count();
+                (kept as f64 / block.len() as f64 - alpha) / predicted.sqrt()
+            }));
+        }
+    }
+    Ok(judged(&groups))
+}
+
+/// The variance of the coverage of a block at each alpha: that of independent fragments, times the design effect.
+fn predicted_variances(
+    subject: &Subject<'_>,
+    sheet: &Sheet,
+    nominal: &Nominal,
+    spacing: f64,
+) -> [f64; VARIANCE_ALPHAS.len()] {
+    let side = BLOCK_SIDE as i32;
+    let mut sums = [0.0; VARIANCE_ALPHAS.len()];
+    for y in 1 - side..side {
+        for x in 1 - side..side {
+            let lag = sheet.lag(DVec2::new(f64::from(x), f64::from(y)) * spacing);
+            let kinship = Kinship::new(subject, nominal, lag);
+            let pairs = f64::from((side - x.abs()) * (side - y.abs()));
+            for (sum, alpha) in sums.iter_mut().zip(VARIANCE_ALPHAS) {
+                *sum += pairs * kinship.visibility_correlation(alpha);
+            }
+        }
+    }
+    let places = f64::from(side * side);
+    [0, 1, 2].map(|i| VARIANCE_ALPHAS[i] * (1.0 - VARIANCE_ALPHAS[i]) * sums[i] / (places * places))
+}
+
+fn judged(groups: &[Blocks]) -> Trial {
+    let (mut points, mut least_p, mut n) = (Vec::new(), 1.0_f64, 0);
+    for Blocks { name, scores } in groups {
+        n += scores[0].len() as u64;
+        for (alpha, scores) in VARIANCE_ALPHAS.into_iter().zip(scores) {
+            let Ok(found) = Variance::of(scores) else { continue };
+            least_p = least_p.min(found.against(1.0).two_sided_p());
+            points.push(ComparedShare {
+                series: (*name).to_owned(),
+                x: alpha,
+                measured: found.variance,
+                predicted: 1.0,
+                sigma: (2.0 / found.dof as f64).sqrt(),
+            });
+        }
+    }
+    let error = |point: &ComparedShare| (point.measured - 1.0).abs();
+    let Some(worst) = points.iter().max_by(|a, b| error(a).total_cmp(&error(b))) else {
+        return Trial::without(Conclusion::Inconclusive, "there were no blocks");
+    };
+    Trial {
+        conclusion: Conclusion::Probability((least_p * points.len() as f64).min(1.0)),
+        statistic: Some(worst.measured),
+        statistic_name: format!("variance / predicted, worst of {}", points.len()),
+        n,
+        effect: Some(error(worst)),
+        effect_name: "relative error in the variance of coverage",
+        detectable: points
+            .iter()
+            .map(|point| point.sigma)
+            .reduce(f64::max)
+            .map(|sigma| power::detectable_shift_z(sigma, SINGLE_LEVEL / points.len() as f64, POWER)),
+        seen: format!(
+            "{}, alpha {}: the coverage of blocks varies {:.2} times as much as predicted",
+            worst.series, worst.x, worst.measured
+        ),
+        evidence: Evidence::Quantity { abscissa: "alpha", ordinate: "variance / predicted", points },
+    }
+}

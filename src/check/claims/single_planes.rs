@@ -1,0 +1,119 @@
+//! Uniformity on one plane at a time: the biases of several planes add up here and do not cancel.
+
+use super::uniform::{histogram, reject_outsiders, uniformity};
+use super::{Attempt, Claim, Conclusion, Promise, Trial};
+use crate::check::evidence::NamedHistogram;
+use crate::check::sample::independent;
+use crate::check::sheet::rotation;
+use crate::check::tolerance::{BINS, PLANE_SAMPLES, PLANES};
+use crate::check::{Draw, Evidence, Subject, Verdict};
+use crate::scene::{Camera, Rectangle, Scene};
+use crate::stats::chi_square::ChiSquare;
+use glam::{DMat3, DVec3};
+use rand::rngs::Xoshiro256PlusPlus;
+
+/// Planes of constant z.
+pub const CONSTANT_Z: Claim = Claim {
+    id: "uniform.constant_z",
+    anchor: "§5.1 (hash3D), not in the paper",
+    statement: "thresholds on each single plane of constant z are uniform",
+    expected: Verdict::Consistent,
+    promise: Some(Promise::Linear(7.0e-3)),
+    run: |subject, draw| planes(&CONSTANT_Z, "z = ", |_| DMat3::IDENTITY, subject, draw),
+};
+
+/// Planes of constant x: the first coordinate that a hash reads.
+pub const CONSTANT_X: Claim = Claim {
+    id: "uniform.constant_x",
+    anchor: "§5.1 (hash3D), not in the paper",
+    statement: "thresholds on each single plane of constant x are uniform",
+    run: |subject, draw| {
+        planes(&CONSTANT_X, "x = ", |_| DMat3::from_cols(DVec3::Y, DVec3::Z, DVec3::X), subject, draw)
+    },
+    ..CONSTANT_Z
+};
+
+/// Planes of constant y.
+pub const CONSTANT_Y: Claim = Claim {
+    id: "uniform.constant_y",
+    anchor: "§5.1 (hash3D), not in the paper",
+    statement: "thresholds on each single plane of constant y are uniform",
+    run: |subject, draw| {
+        planes(&CONSTANT_Y, "y = ", |_| DMat3::from_cols(DVec3::Z, DVec3::X, DVec3::Y), subject, draw)
+    },
+    ..CONSTANT_Z
+};
+
+/// Planes in any direction.
+pub const ANY_DIRECTION: Claim = Claim {
+    id: "uniform.any_plane",
+    anchor: "§5.1 (hash3D), not in the paper",
+    statement: "thresholds on each single plane, whatever its direction, are uniform",
+    run: |subject, draw| planes(&ANY_DIRECTION, "plane at ", rotation, subject, draw),
+    ..CONSTANT_Z
+};
+
+fn planes(
+    claim: &Claim,
+    label: &str,
+    turn: impl Fn(&mut Xoshiro256PlusPlus) -> DMat3,
+    subject: &Subject<'_>,
+    draw: &Draw,
+) -> Attempt<Trial> {
+    let mut rng = draw.rng(claim.id);
+    let Some(wall) = Scene::all().into_iter().find(|scene| scene.name == "wall") else {
+        return Ok(Trial::without(Conclusion::Inconclusive, "there is no scene of that name"));
+    };
+    let mut tests: Vec<ChiSquare> = Vec::new();
+    let mut evidence = Vec::new();
+    let mut worst_bias = 0.0_f64;
+    for _ in 0..PLANES {
+        let turn = turn(&mut rng);
+        // One place for all of a plane's samples: each plane has one distance from the origin.
+        let scene = [turned(&wall, turn)];
+        let samples = independent(subject, &scene, draw.samples(PLANE_SAMPLES), usize::MAX, &mut rng);
+        let values = subject.thresholds(&samples);
+        reject_outsiders(&samples, &values)?;
+        let counts = histogram(values);
+        tests.extend(uniformity(&counts));
+        let below_half: u64 = counts.counts()[..BINS / 2].iter().sum();
+        let bias = below_half as f64 / counts.total() as f64 - 0.5;
+        if bias.abs() > worst_bias.abs() {
+            worst_bias = bias;
+        }
+        let distance = samples.first().map_or(f64::NAN, |sample| sample.footprint.position.dot(turn.z_axis));
+        evidence
+            .push(NamedHistogram { name: format!("{label}{distance:.3}"), counts: counts.counts().to_vec() });
+    }
+    let Some(sum) =
+        tests.into_iter().reduce(|a, b| ChiSquare::new(a.statistic + b.statistic, a.dof + b.dof, a.n + b.n))
+    else {
+        return Ok(Trial::without(Conclusion::Inconclusive, "the wall gave no samples"));
+    };
+    let seen = format!(
+        "each plane has a bias of its own: the share of thresholds up to 1/2 is off by up to {:+.2} %",
+        100.0 * worst_bias
+    );
+    Ok(Trial::worst_of(&[sum], sum.n, seen, Evidence::Histograms(evidence)))
+}
+
+/// Turns a scene about the origin, camera and all.
+fn turned(scene: &Scene, turn: DMat3) -> Scene {
+    let Camera { eye, forward, direction_dx, direction_dy, resolution } = scene.camera;
+    let surface = |&Rectangle { centre, half_u, half_v }: &Rectangle| Rectangle {
+        centre: turn * centre,
+        half_u: turn * half_u,
+        half_v: turn * half_v,
+    };
+    Scene {
+        camera: Camera {
+            eye: turn * eye,
+            forward: turn * forward,
+            direction_dx: turn * direction_dx,
+            direction_dy: turn * direction_dy,
+            resolution,
+        },
+        surfaces: scene.surfaces.iter().map(surface).collect(),
+        ..scene.clone()
+    }
+}
