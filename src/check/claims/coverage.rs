@@ -52,7 +52,7 @@ pub const VARIANCE: Claim = Claim {
     statement: "the coverage of blocks of a surface varies as much as cells of the claimed size make it: not more, as \
                 clumps would, and not less, as white or ordered noise would",
     expected: Verdict::Consistent,
-    promise: Some(Promise::Root(0.6)),
+    promise: Some(Promise::Root(0.8)),
     run: variance,
 };
 

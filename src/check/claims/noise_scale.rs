@@ -53,7 +53,7 @@ fn trial(claim: &Claim, kinds: &[(f64, &str)], subject: &Subject<'_>, draw: &Dra
     for &(stretch, kind) in kinds {
         for (along, axis) in [(DVec2::X, "x"), (DVec2::Y, "y")] {
             let name = format!("{kind}, run along {axis}");
-            let lines = lines(subject, stretch, along, draw.samples(SCAN_LINES), &mut rng)?;
+            let lines = lines(subject, stretch, along, draw.samples_at_least(SCAN_LINES), &mut rng)?;
             n += lines.len() as u64 * u64::from(SCAN_STEPS);
             let expected = lines.iter().map(|line| line.expected).sum::<f64>() / lines.len() as f64;
             let relative: Vec<f64> =
