@@ -135,3 +135,319 @@ fn integer_hashes_give_the_bits_of_their_rust_twins() {
         }
     }
 }
+
+/// Random shaders against a scalar evaluation of the same tree, one lane at a time.
+mod random {
+    use super::{Column, DeviceModel, Values, compile};
+    use proptest::prelude::*;
+    use std::fmt::Write;
+
+    /// Expressions over four variables and an array of four, all `u32`.
+    #[derive(Clone, Debug)]
+    enum Expr {
+        Lane,
+        Variable(usize),
+        Constant(u32),
+        Element(Box<Expr>),
+        Binary(&'static str, Box<Expr>, Box<Expr>),
+        Select(Box<Expr>, Box<Expr>, Box<Expr>),
+        Call(Box<Expr>, Box<Expr>),
+    }
+
+    #[derive(Clone, Debug)]
+    enum Stmt {
+        Assign(usize, Expr),
+        AssignElement(Expr, Expr),
+        If(Expr, Vec<Stmt>, Vec<Stmt>),
+        /// At most so many rounds; the expression ends it earlier where it is odd.
+        Loop(u32, Vec<Stmt>, Expr),
+        Switch(Expr, Vec<Vec<Stmt>>),
+        BreakIf(Expr),
+        ContinueIf(Expr),
+        ReturnIf(Expr, Expr),
+    }
+
+    const OPERATORS: [&str; 10] = ["+", "-", "*", "/", "%", "&", "|", "^", "<<", ">>"];
+
+    fn expr() -> impl Strategy<Value = Expr> {
+        let leaf = prop_oneof![
+            Just(Expr::Lane),
+            (0..4_usize).prop_map(Expr::Variable),
+            prop_oneof![0..6_u32, any::<u32>()].prop_map(Expr::Constant),
+        ];
+        leaf.prop_recursive(3, 12, 3, |inner| {
+            let inner = inner.prop_map(Box::new).boxed();
+            prop_oneof![
+                4 => (proptest::sample::select(&OPERATORS[..]), inner.clone(), inner.clone())
+                    .prop_map(|(op, a, b)| Expr::Binary(op, a, b)),
+                1 => inner.clone().prop_map(Expr::Element),
+                1 => (inner.clone(), inner.clone(), inner.clone()).prop_map(|(c, a, b)| Expr::Select(c, a, b)),
+                1 => (inner.clone(), inner).prop_map(|(a, b)| Expr::Call(a, b)),
+            ]
+        })
+    }
+
+    fn block() -> impl Strategy<Value = Vec<Stmt>> {
+        let leaf = prop_oneof![
+            4 => (0..4_usize, expr()).prop_map(|(to, value)| Stmt::Assign(to, value)),
+            2 => (expr(), expr()).prop_map(|(index, value)| Stmt::AssignElement(index, value)),
+            1 => expr().prop_map(Stmt::BreakIf),
+            1 => expr().prop_map(Stmt::ContinueIf),
+            1 => (expr(), expr()).prop_map(|(condition, value)| Stmt::ReturnIf(condition, value)),
+        ];
+        let statement = leaf.prop_recursive(4, 40, 4, |inner| {
+            let body = prop::collection::vec(inner, 0..4).boxed();
+            prop_oneof![
+                (expr(), body.clone(), body.clone()).prop_map(|(c, a, b)| Stmt::If(c, a, b)),
+                (0..5_u32, body.clone(), expr())
+                    .prop_map(|(rounds, body, end)| Stmt::Loop(rounds, body, end)),
+                (expr(), prop::collection::vec(body, 3))
+                    .prop_map(|(selector, cases)| Stmt::Switch(selector, cases)),
+            ]
+        });
+        prop::collection::vec(statement, 1..8)
+    }
+
+    /// Whether `break` and `continue` have something to leave.
+    #[derive(Clone, Copy)]
+    struct Inside {
+        breakable: bool,
+        loops: usize,
+    }
+
+    fn write_expr(out: &mut String, expr: &Expr) {
+        match expr {
+            Expr::Lane => out.push_str("lane"),
+            Expr::Variable(i) => write!(out, "x{i}_").expect("a string"),
+            Expr::Constant(value) => write!(out, "{value}u").expect("a string"),
+            Expr::Element(index) => {
+                out.push_str("m[id(");
+                write_expr(out, index);
+                out.push_str(")]");
+            }
+            Expr::Binary(op, a, b) => {
+                // By way of a function, since naga refuses overflow that it can see.
+                out.push_str("(id(");
+                write_expr(out, a);
+                write!(out, ") {op} id(").expect("a string");
+                write_expr(out, b);
+                out.push_str("))");
+            }
+            Expr::Select(c, a, b) => {
+                out.push_str("select(");
+                write_expr(out, b);
+                out.push_str(", ");
+                write_expr(out, a);
+                out.push_str(", odd(");
+                write_expr(out, c);
+                out.push_str("))");
+            }
+            Expr::Call(a, b) => {
+                out.push_str("mixed(");
+                write_expr(out, a);
+                out.push_str(", ");
+                write_expr(out, b);
+                out.push(')');
+            }
+        }
+    }
+
+    fn text(expr: &Expr) -> String {
+        let mut out = String::new();
+        write_expr(&mut out, expr);
+        out
+    }
+
+    fn write_block(out: &mut String, block: &[Stmt], inside: Inside) {
+        for statement in block {
+            match statement {
+                Stmt::Assign(to, value) => writeln!(out, "x{to}_ = {};", text(value)),
+                Stmt::AssignElement(index, value) => {
+                    writeln!(out, "m[id({})] = {};", text(index), text(value))
+                }
+                Stmt::If(condition, accept, reject) => {
+                    writeln!(out, "if odd({}) {{", text(condition)).expect("a string");
+                    write_block(out, accept, inside);
+                    out.push_str("} else {\n");
+                    write_block(out, reject, inside);
+                    writeln!(out, "}}")
+                }
+                Stmt::Loop(rounds, body, end) => {
+                    let counter = format!("n{}_", inside.loops);
+                    writeln!(out, "{{ var {counter} = 0u; loop {{ if {counter} >= {rounds}u {{ break; }}")
+                        .expect("a string");
+                    write_block(out, body, Inside { breakable: true, loops: inside.loops + 1 });
+                    writeln!(out, "continuing {{ {counter}++; break if odd({}); }} }} }}", text(end))
+                }
+                Stmt::Switch(selector, cases) => {
+                    writeln!(out, "switch ({}) % 4u {{", text(selector)).expect("a string");
+                    for (label, case) in ["case 0u", "case 1u, 3u", "default"].into_iter().zip(cases) {
+                        writeln!(out, "{label}: {{").expect("a string");
+                        write_block(out, case, Inside { breakable: true, ..inside });
+                        out.push_str("}\n");
+                    }
+                    writeln!(out, "}}")
+                }
+                Stmt::BreakIf(condition) if inside.breakable => {
+                    writeln!(out, "if odd({}) {{ break; }}", text(condition))
+                }
+                Stmt::ContinueIf(condition) if inside.loops > 0 => {
+                    writeln!(out, "if odd({}) {{ continue; }}", text(condition))
+                }
+                Stmt::BreakIf(_) | Stmt::ContinueIf(_) => Ok(()),
+                Stmt::ReturnIf(condition, value) => {
+                    writeln!(out, "if odd({}) {{ return {}; }}", text(condition), text(value))
+                }
+            }
+            .expect("a string");
+        }
+    }
+
+    fn source(block: &[Stmt]) -> String {
+        let mut out = "fn id(x: u32) -> u32 { return x; }
+fn odd(x: u32) -> bool { return (x & 1u) == 1u; }
+fn mixed(a: u32, b: u32) -> u32 { if a < b { return a * 3u; } var c = b; while c > a / 2u + 7u { c /= 3u; } return c; }
+fn f(lane: u32) -> u32 {
+var x0_ = lane; var x1_ = lane / 3u; var x2_ = 7u; var x3_ = 0u; var m = array<u32, 4>(1u, 2u, 3u, 5u);
+"
+        .to_owned();
+        write_block(&mut out, block, Inside { breakable: false, loops: 0 });
+        out.push_str("return x0_ ^ (x1_ * 3u) ^ (x2_ * 5u) ^ (x3_ * 7u) ^ (m[0] + m[1] * 11u + m[2] * 13u + m[3] * 17u);\n}\n");
+        out
+    }
+
+    struct State {
+        lane: u32,
+        x: [u32; 4],
+        m: [u32; 4],
+    }
+
+    enum Flow {
+        On,
+        Break,
+        Continue,
+        Return(u32),
+    }
+
+    impl State {
+        fn value(&self, expr: &Expr) -> u32 {
+            match expr {
+                Expr::Lane => self.lane,
+                Expr::Variable(i) => self.x[*i],
+                Expr::Constant(value) => *value,
+                Expr::Element(index) => self.m[self.value(index).min(3) as usize],
+                Expr::Binary(op, a, b) => {
+                    let (a, b) = (self.value(a), self.value(b));
+                    match *op {
+                        "+" => a.wrapping_add(b),
+                        "-" => a.wrapping_sub(b),
+                        "*" => a.wrapping_mul(b),
+                        "/" if b == 0 => a,
+                        "/" => a / b,
+                        "%" if b == 0 => 0,
+                        "%" => a % b,
+                        "&" => a & b,
+                        "|" => a | b,
+                        "^" => a ^ b,
+                        "<<" => a << (b % 32),
+                        _ => a >> (b % 32),
+                    }
+                }
+                Expr::Select(c, a, b) => self.value(if self.value(c) % 2 == 1 { a } else { b }),
+                Expr::Call(a, b) => {
+                    let (a, b) = (self.value(a), self.value(b));
+                    if a < b {
+                        return a.wrapping_mul(3);
+                    }
+                    let mut c = b;
+                    while c > a / 2 + 7 {
+                        c /= 3;
+                    }
+                    c
+                }
+            }
+        }
+
+        fn run(&mut self, block: &[Stmt], inside: Inside) -> Flow {
+            for statement in block {
+                let odd = |state: &Self, condition: &Expr| state.value(condition) % 2 == 1;
+                let flow = match statement {
+                    Stmt::Assign(to, value) => {
+                        self.x[*to] = self.value(value);
+                        Flow::On
+                    }
+                    Stmt::AssignElement(index, value) => {
+                        let index = self.value(index).min(3) as usize;
+                        self.m[index] = self.value(value);
+                        Flow::On
+                    }
+                    Stmt::If(condition, accept, reject) => {
+                        let taken = if odd(self, condition) { accept } else { reject };
+                        self.run(taken, inside)
+                    }
+                    Stmt::Loop(rounds, body, end) => {
+                        let inside = Inside { breakable: true, loops: inside.loops + 1 };
+                        let mut flow = Flow::On;
+                        for _ in 0..*rounds {
+                            match self.run(body, inside) {
+                                Flow::Break => break,
+                                Flow::Return(value) => {
+                                    flow = Flow::Return(value);
+                                    break;
+                                }
+                                Flow::On | Flow::Continue => {}
+                            }
+                            if odd(self, end) {
+                                break;
+                            }
+                        }
+                        flow
+                    }
+                    Stmt::Switch(selector, cases) => {
+                        let case = [0, 1, 2, 1][(self.value(selector) % 4) as usize];
+                        match self.run(&cases[case], Inside { breakable: true, ..inside }) {
+                            Flow::Break => Flow::On,
+                            flow => flow,
+                        }
+                    }
+                    Stmt::BreakIf(condition) if inside.breakable && odd(self, condition) => Flow::Break,
+                    Stmt::ContinueIf(condition) if inside.loops > 0 && odd(self, condition) => Flow::Continue,
+                    Stmt::ReturnIf(condition, value) if odd(self, condition) => {
+                        Flow::Return(self.value(value))
+                    }
+                    _ => Flow::On,
+                };
+                if !matches!(flow, Flow::On) {
+                    return flow;
+                }
+            }
+            Flow::On
+        }
+    }
+
+    fn alone(block: &[Stmt], lane: u32) -> u32 {
+        let mut state = State { lane, x: [lane, lane / 3, 7, 0], m: [1, 2, 3, 5] };
+        if let Flow::Return(value) = state.run(block, Inside { breakable: false, loops: 0 }) {
+            return value;
+        }
+        let ([a, b, c, d], [m, n, o, p]) = (state.x, state.m);
+        let sum = |factors: [u32; 4]| {
+            [m, n, o, p].iter().zip(factors).fold(0, |sum: u32, (x, k)| sum.wrapping_add(x.wrapping_mul(k)))
+        };
+        a ^ b.wrapping_mul(3) ^ c.wrapping_mul(5) ^ d.wrapping_mul(7) ^ sum([1, 11, 13, 17])
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { cases: 400, ..ProptestConfig::default() })]
+
+        #[test]
+        fn every_lane_of_a_random_shader_runs_as_it_would_alone(block in block()) {
+            let source = source(&block);
+            let program = compile(&source, "f");
+            let lanes: Vec<u32> = (0..150).map(|i| i * i / 2).collect();
+            let result = program.run(&[Column::U32(&lanes)], lanes.len(), &DeviceModel::ACCURATE);
+            let expected = lanes.iter().map(|&lane| alone(&block, lane)).collect();
+            prop_assert_eq!(result, Ok(vec![Values::U32(expected)]), "{}", source);
+        }
+    }
+}

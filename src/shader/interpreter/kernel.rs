@@ -5,11 +5,13 @@
 //! zero and saturates, NaN becomes 0. Integers wrap; `x / 0` is `x`, `x % 0` is 0; a shift takes the distance modulo
 //! 32. Truth is all bits set.
 
-use super::machine::{Column, Lanes};
+use super::machine::{Column, LANES, Lanes};
 use super::model::DeviceModel;
 use super::op::{Binary, Unary};
+use crate::threshold::batch::slices::{log2_block, sin_block};
+use crate::threshold::batch::{Block, Isa};
 use crate::threshold::emulated::{Arithmetic, Half};
-use crate::threshold::real::{Real, exp2_f32, log2_f32};
+use crate::threshold::real::{Real, exp2_f32};
 use core::cell::Cell;
 
 #[inline(always)]
@@ -42,6 +44,17 @@ fn wide(to: &Column, from: &Column, f: impl Fn(f64) -> f64) {
     floats(to, from, |x| f(f64::from(x)) as f32);
 }
 
+/// A function of a whole block of floats.
+#[inline(always)]
+fn blocks(to: &Column, from: &Column, f: impl Fn(&Block<f32>, &mut Block<f32>)) {
+    let arguments = core::array::from_fn(|lane| f32::from_bits(from[lane].get()));
+    let mut values = [0.0; LANES];
+    f(&arguments, &mut values);
+    for (to, value) in to.iter().zip(values) {
+        to.set(value.to_bits());
+    }
+}
+
 /// All bits for true, none for false.
 #[inline(always)]
 fn truth(value: bool) -> u32 {
@@ -53,7 +66,14 @@ fn tests(to: &Column, left: &Column, right: &Column, f: impl Fn(f32, f32) -> boo
     words_2(to, left, right, |x, y| truth(f(f32::from_bits(x), f32::from_bits(y))));
 }
 
-pub(super) fn unary(function: Unary, to: &Column, from: &Column, model: &DeviceModel) {
+#[inline(always)]
+pub(super) fn unary<const FUSED: bool>(
+    function: Unary,
+    to: &Column,
+    from: &Column,
+    model: &DeviceModel,
+    isa: Isa,
+) {
     match function {
         Unary::Copy | Unary::Float => words(to, from, |x| x),
         Unary::Negate => words(to, from, |x| x ^ 0x8000_0000),
@@ -66,8 +86,11 @@ pub(super) fn unary(function: Unary, to: &Column, from: &Column, model: &DeviceM
         Unary::Sign => floats(to, from, |x| f32::from(x > 0.0) - f32::from(x < 0.0)),
         Unary::Sqrt => floats(to, from, f32::sqrt),
         Unary::InverseSqrt => wide(to, from, |x| 1.0 / x.sqrt()),
-        Unary::Sin => model.sin(to, from),
-        Unary::Cos => model.cos(to, from),
+        Unary::Sin => match model.sin {
+            None => blocks(to, from, sin_block::<FUSED>),
+            Some(sin) => sin(isa, to, from),
+        },
+        Unary::Cos => (model.cos)(isa, to, from),
         Unary::Asin => wide(to, from, libm::asin),
         Unary::Acos => wide(to, from, libm::acos),
         Unary::Atan => wide(to, from, libm::atan),
@@ -80,7 +103,7 @@ pub(super) fn unary(function: Unary, to: &Column, from: &Column, model: &DeviceM
         Unary::Exp => wide(to, from, libm::exp),
         Unary::Exp2 => floats(to, from, exp2_f32),
         Unary::Ln => wide(to, from, libm::log),
-        Unary::Log2 => floats(to, from, log2_f32),
+        Unary::Log2 => blocks(to, from, log2_block::<FUSED>),
         Unary::FrexpFraction => floats(to, from, |x| libm::frexpf(x).0),
         Unary::FrexpExponent => words(to, from, |x| libm::frexpf(f32::from_bits(x)).1 as u32),
         Unary::QuantizeToF16 => floats(to, from, |x| Half::round(f64::from(x))),
@@ -109,11 +132,19 @@ pub(super) fn unary(function: Unary, to: &Column, from: &Column, model: &DeviceM
         Unary::FirstLeadingBitSigned => words(to, from, |x| first_leading_bit(x ^ truth((x as i32) < 0))),
     }
     if function.rounds() {
-        model.round(to);
+        model.round(isa, to);
     }
 }
 
-pub(super) fn binary(function: Binary, to: &Column, left: &Column, right: &Column, model: &DeviceModel) {
+#[inline(always)]
+pub(super) fn binary(
+    function: Binary,
+    to: &Column,
+    left: &Column,
+    right: &Column,
+    model: &DeviceModel,
+    isa: Isa,
+) {
     /// A loop over two words that are read as signed integers.
     #[inline(always)]
     fn signed(to: &Column, left: &Column, right: &Column, f: impl Fn(i32, i32) -> i32) {
@@ -160,21 +191,18 @@ pub(super) fn binary(function: Binary, to: &Column, left: &Column, right: &Colum
         Binary::ShiftRightUnsigned => words_2(to, left, right, u32::wrapping_shr),
     }
     if function.rounds() {
-        model.round(to);
+        model.round(isa, to);
     }
 }
 
-/// Adds or subtracts, each operand rounded before.
-pub(super) fn sum(subtract: bool, to: &Column, left: &Column, right: &Column, model: &DeviceModel) {
-    binary(if subtract { Binary::Subtract } else { Binary::Add }, to, left, right, model);
-}
-
 /// Computes `a * b + c` with one rounding; the two signs are of the product and of `c`.
+#[inline(always)]
 pub(super) fn contracted_sum(
     to: &Column,
     [a, b, c]: [&Column; 3],
     [negate_product, negate_addend]: [bool; 2],
     model: &DeviceModel,
+    isa: Isa,
 ) {
     let signed = |word: &Cell<u32>, negate: bool| {
         let value = f32::from_bits(word.get());
@@ -184,9 +212,10 @@ pub(super) fn contracted_sum(
         let sum = signed(a, negate_product).mul_add(signed(b, false), signed(c, negate_addend));
         to.set(sum.to_bits());
     }
-    model.round(to);
+    model.round(isa, to);
 }
 
+#[inline(always)]
 pub(super) fn select(to: &Column, condition: &Column, accept: &Column, reject: &Column) {
     for (((to, condition), accept), reject) in to.iter().zip(condition).zip(accept).zip(reject) {
         let condition = condition.get();
@@ -195,6 +224,7 @@ pub(super) fn select(to: &Column, condition: &Column, accept: &Column, reject: &
 }
 
 /// Writes the active lanes.
+#[inline(always)]
 pub(super) fn store(to: &Column, from: &Column, active: Lanes) {
     if active == Lanes::MAX {
         return words(to, from, |x| x);

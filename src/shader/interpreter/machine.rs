@@ -8,14 +8,16 @@
 use super::kernel;
 use super::model::DeviceModel;
 use super::op::{Block, Case, Op, Register, Step};
+use crate::threshold::batch::{BLOCK, Isa, isa::Job};
 use core::cell::Cell;
 use naga::Span;
 
-/// Lanes of a block: one bit each in a `u128`.
-pub(super) const LANES: usize = 128;
+/// Lanes of a block.
+pub(super) const LANES: usize = BLOCK;
 
 /// A set of lanes.
 pub(super) type Lanes = u128;
+const _: () = assert!(LANES == Lanes::BITS as usize, "one bit a lane");
 
 /// One word a lane.
 pub(super) type Column = [Cell<u32>; LANES];
@@ -31,6 +33,7 @@ pub(super) struct Endless {
 pub(super) struct Machine<'a> {
     pub(super) registers: Vec<Column>,
     model: &'a DeviceModel,
+    isa: Isa,
     broken: Lanes,
     continued: Lanes,
     steps_left: u64,
@@ -39,9 +42,11 @@ pub(super) struct Machine<'a> {
 impl<'a> Machine<'a> {
     pub(super) fn new(registers: usize, model: &'a DeviceModel) -> Self {
         let zero = [const { Cell::new(0) }; LANES];
-        Self { registers: vec![zero; registers], model, broken: 0, continued: 0, steps_left: 0 }
+        let registers = vec![zero; registers];
+        Self { registers, model, isa: Isa::best(), broken: 0, continued: 0, steps_left: 0 }
     }
 
+    #[inline(always)]
     pub(super) fn column(&self, register: Register) -> &Column {
         &self.registers[register as usize]
     }
@@ -51,6 +56,11 @@ impl<'a> Machine<'a> {
         for lane in self.column(register) {
             lane.set(word);
         }
+    }
+
+    /// Rounds floats that come from outside to what the device can hold.
+    pub(super) fn round(&self, register: Register) {
+        self.model.round(self.isa, self.column(register));
     }
 
     /// Runs a function body on all lanes, at most so many operations and rounds of loops.
@@ -67,9 +77,7 @@ impl<'a> Machine<'a> {
             active = match step {
                 Step::Compute(ops) => {
                     self.steps_left = self.steps_left.saturating_sub(ops.len() as u64);
-                    for op in ops {
-                        self.compute(op, active);
-                    }
+                    self.isa.run(Ops { machine: self, ops, active });
                     active
                 }
                 Step::If { condition, accept, reject } => {
@@ -156,26 +164,27 @@ impl<'a> Machine<'a> {
         Ok(left)
     }
 
-    fn compute(&self, op: &Op, active: Lanes) {
+    #[inline(always)]
+    fn compute<const FUSED: bool>(&self, op: &Op, active: Lanes) {
         let column = |register| self.column(register);
+        let (model, isa) = (self.model, self.isa);
         match *op {
             Op::Unary { function, to, from } => {
-                kernel::unary(function, column(to), column(from), self.model);
+                kernel::unary::<FUSED>(function, column(to), column(from), model, isa);
             }
             Op::Binary { function, to, left, right } => {
-                kernel::binary(function, column(to), column(left), column(right), self.model);
+                kernel::binary(function, column(to), column(left), column(right), model, isa);
             }
-            Op::Sum { subtract, to, left, right, contracted } => {
-                if self.model.contracts() {
-                    let [a, b] = contracted.product.factors.map(column);
-                    let signs = [contracted.product.negated, contracted.negate_addend];
-                    kernel::contracted_sum(column(to), [a, b, column(contracted.addend)], signs, self.model);
-                } else {
-                    kernel::sum(subtract, column(to), column(left), column(right), self.model);
-                }
+            Op::Sum { contracted, to, .. } if model.contracts => {
+                let [a, b] = contracted.product.factors.map(column);
+                let signs = [contracted.product.negated, contracted.negate_addend];
+                kernel::contracted_sum(column(to), [a, b, column(contracted.addend)], signs, model, isa);
+            }
+            Op::Sum { function, to, left, right, .. } => {
+                kernel::binary(function, column(to), column(left), column(right), model, isa);
             }
             Op::Fma { to, arguments } => {
-                kernel::contracted_sum(column(to), arguments.map(column), [false; 2], self.model);
+                kernel::contracted_sum(column(to), arguments.map(column), [false; 2], model, isa);
             }
             Op::Select { to, condition, accept, reject } => {
                 kernel::select(column(to), column(condition), column(accept), column(reject));
@@ -193,6 +202,22 @@ impl<'a> Machine<'a> {
                     column(register)[lane].set(column(from)[lane].get());
                 }
             }
+        }
+    }
+}
+
+/// A run of operations, compiled for the instructions of the machine.
+struct Ops<'a, 'm> {
+    machine: &'a Machine<'m>,
+    ops: &'a [Op],
+    active: Lanes,
+}
+
+impl Job for Ops<'_, '_> {
+    #[inline(always)]
+    fn run<const FUSED: bool>(self) {
+        for op in self.ops {
+            self.machine.compute::<FUSED>(op, self.active);
         }
     }
 }

@@ -132,7 +132,7 @@ impl Program {
             for (&register, column) in self.arguments.iter().zip(columns) {
                 column.load(block * LANES, lanes, machine.column(register));
                 if column.kind() == Kind::F32 {
-                    model.round(machine.column(register));
+                    machine.round(register);
                 }
             }
             machine.run(&self.body, self.steps)?;
@@ -172,7 +172,7 @@ impl Program {
         for &(register, constant) in &self.constants {
             machine.fill(register, constant.bits);
             if constant.float {
-                model.round(machine.column(register));
+                machine.round(register);
             }
         }
         machine
@@ -201,3 +201,6 @@ impl Program {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -169,10 +169,10 @@ pub(super) enum Op {
         left: Register,
         right: Register,
     },
-    /// `left + right` or `left - right`, of which one side is a product. A device that contracts computes
+    /// [`Binary::Add`] or [`Binary::Subtract`], of which one side is a product. A device that contracts computes
     /// `product + addend` with one rounding.
     Sum {
-        subtract: bool,
+        function: Binary,
         to: Register,
         left: Register,
         right: Register,

@@ -66,7 +66,7 @@ impl Isa {
     }
 
     /// Runs a job compiled for this set; for the portable one where the machine does not have it.
-    pub(super) fn run<J: Job>(self, job: J) {
+    pub(crate) fn run<J: Job>(self, job: J) {
         match self {
             Self::Portable => job.run::<{ cfg!(target_arch = "aarch64") }>(),
             Self::Avx2 => avx2(job),
@@ -82,7 +82,7 @@ impl fmt::Display for Isa {
 }
 
 /// A loop over blocks.
-pub(super) trait Job {
+pub(crate) trait Job {
     /// Does the work. `FUSED`: the machine has a fused multiply-add.
     ///
     /// Must be `#[inline(always)]`, and so must all that it calls in a loop; a closure is not and keeps the

@@ -4,7 +4,7 @@
 //! the instruction set or the number of threads.
 
 pub mod isa;
-mod slices;
+pub(crate) mod slices;
 
 pub use isa::Isa;
 
@@ -12,4 +12,4 @@ pub use isa::Isa;
 pub const BLOCK: usize = 128;
 
 /// One array of a block.
-type Block<T> = [T; BLOCK];
+pub(crate) type Block<T> = [T; BLOCK];

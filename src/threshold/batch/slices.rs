@@ -68,8 +68,9 @@ fn over_blocks(x: &[f32], out: &mut [f32], block: impl Fn(&Block<f32>, &mut Bloc
     }
 }
 
+/// The sine of a block; see [`Isa::sin`].
 #[inline(always)]
-fn sin_block<const FUSED: bool>(x: &Block<f32>, out: &mut Block<f32>) {
+pub(crate) fn sin_block<const FUSED: bool>(x: &Block<f32>, out: &mut Block<f32>) {
     let mut all_within = true;
     for i in 0..BLOCK {
         out[i] = sin_in_domain::<FUSED>(x[i]);
@@ -90,8 +91,9 @@ fn is_within(x: f32) -> bool {
     x.abs() <= SIN_F32_DOMAIN
 }
 
+/// The logarithm of a block; see [`Isa::log2`].
 #[inline(always)]
-fn log2_block<const FUSED: bool>(x: &Block<f32>, out: &mut Block<f32>) {
+pub(crate) fn log2_block<const FUSED: bool>(x: &Block<f32>, out: &mut Block<f32>) {
     for i in 0..BLOCK {
         out[i] = log2_everywhere::<FUSED>(x[i]);
     }

@@ -105,15 +105,16 @@ impl Compiler<'_> {
     }
 
     pub(super) fn add(&mut self, left: Register, right: Register) -> Result<Register> {
-        self.sum(false, left, right)
+        self.sum(Binary::Add, left, right)
     }
 
     pub(super) fn subtract(&mut self, left: Register, right: Register) -> Result<Register> {
-        self.sum(true, left, right)
+        self.sum(Binary::Subtract, left, right)
     }
 
     /// A sum or difference; of two products the left one stays exact where the device contracts.
-    fn sum(&mut self, subtract: bool, left: Register, right: Register) -> Result<Register> {
+    fn sum(&mut self, function: Binary, left: Register, right: Register) -> Result<Register> {
+        let subtract = function == Binary::Subtract;
         let products = [left, right].map(|register| self.products.get(&register).copied());
         let contracted = match products {
             [Some(product), _] => Contracted { product, addend: right, negate_addend: subtract },
@@ -122,13 +123,10 @@ impl Compiler<'_> {
                 addend: left,
                 negate_addend: false,
             },
-            [None, None] => {
-                let function = if subtract { Binary::Subtract } else { Binary::Add };
-                return self.binary(function, left, right);
-            }
+            [None, None] => return self.binary(function, left, right),
         };
         let to = self.register()?;
-        self.push(Op::Sum { subtract, to, left, right, contracted })?;
+        self.push(Op::Sum { function, to, left, right, contracted })?;
         Ok(to)
     }
 
