@@ -6,8 +6,11 @@ mod arithmetic;
 mod axis_planes;
 
 use glam::{DVec2, DVec3, dvec2, dvec3};
+use hashed_alpha::check::claims;
+use hashed_alpha::check::specimen::{self, matrix::KillMatrix};
 use hashed_alpha::report::figure::before_and_after::{LerpHistograms, before_and_after};
 use hashed_alpha::report::figure::cdf_family::cdf_family;
+use hashed_alpha::report::figure::kill_matrix::{Kill, KillRow, kill_matrix};
 use hashed_alpha::report::figure::noise::{NoisePanel, noise};
 use hashed_alpha::report::figure::stability::{MeasuredShare, StabilityPanel, StabilitySeries, stability};
 use hashed_alpha::scene::Scene;
@@ -36,6 +39,7 @@ fn main() -> io::Result<()> {
         ("planes", |_| axis_planes::draw_planes()),
         ("dyadic", axis_planes::draw_dyadic),
         ("room", |_| axis_planes::draw_room()),
+        ("kill_matrix", |_| draw_kill_matrix()),
     ] {
         let path = directory.join(name).with_extension("svg");
         fs::write(&path, picture(rng(name)))?;
@@ -163,4 +167,23 @@ fn draw_noise(_: Xoshiro256PlusPlus) -> String {
         }
     });
     noise("Thresholds of a frontal wall for noise of 1, 3 and 9 pixels", &panels)
+}
+
+/// The committed matrix; its test keeps it up to date.
+fn draw_kill_matrix() -> String {
+    let matrix = KillMatrix::committed();
+    let claims: Vec<&str> = claims::ALL.iter().map(|claim| claim.id).collect();
+    let rows: Vec<KillRow> = specimen::ALL
+        .iter()
+        .map(|specimen| {
+            let rejected = matrix.row(specimen.name).map_or(&[][..], |row| &row.claims);
+            let kill = |claim: &&str| match () {
+                () if !rejected.contains(claim) => Kill::None,
+                () if *claim == specimen.claim => Kill::Named,
+                () => Kill::Rejected,
+            };
+            KillRow { name: specimen.name.to_owned(), kills: claims.iter().map(kill).collect() }
+        })
+        .collect();
+    kill_matrix("Specimens, and the claims that reject them", &claims, &rows)
 }

@@ -492,7 +492,7 @@ fn a_threshold_is_printed_in_every_language() {
 fn help_tells_exit_codes_and_examples() {
     let help = succeed(&["--help"], "");
     assert!(help.contains("Exit codes:") && help.contains("Examples:"), "{help}");
-    for verb in ["check", "eval", "scenes", "shader"] {
+    for verb in ["check", "compare", "eval", "scenes", "shader"] {
         assert!(succeed(&[verb, "--help"], "").contains("Examples:"), "{verb}");
     }
     assert_eq!(succeed(&["--version"], ""), format!("hashed-alpha {}\n", env!("CARGO_PKG_VERSION")));

@@ -1,10 +1,9 @@
 //! The claims about noise as a whole reject what is broken in just their way, and pass what is sound; and two subjects
 //! are told apart no further than they differ.
 
-mod ideal;
-
 use glam::{DVec3, Vec3Swizzles};
 use hashed_alpha::check::claims::{self, Claim};
+use hashed_alpha::check::specimen::Ideal;
 use hashed_alpha::check::{Agreement, Draw, Subject, Verdict, compare, run_claims, subject::Precision};
 use hashed_alpha::scene::Fragment;
 use hashed_alpha::threshold::cdf::{CdfForm, cdf};
@@ -14,7 +13,6 @@ use hashed_alpha::threshold::hashed::HashedAlpha;
 use hashed_alpha::threshold::real::Real;
 use hashed_alpha::threshold::robust::{Join, Robust};
 use hashed_alpha::threshold::two_scale::Variant;
-use ideal::Ideal;
 use std::f64::consts::TAU;
 
 const NOISE: [&str; 7] = [
@@ -34,7 +32,7 @@ fn noise() -> Vec<Claim> {
 
 fn robust(variant: Variant, hash_scale: f64) -> Robust<Ideal> {
     let Robust { join, repairs, .. } = Robust::new(variant);
-    Robust { variant, hash: Ideal, hash_scale, join, repairs }
+    Robust { variant, hash: Ideal::new(0), hash_scale, join, repairs }
 }
 
 fn claim_named(id: &str) -> Claim {
@@ -144,7 +142,8 @@ fn a_derivative_in_the_wrong_place_is_seen_on_a_tilted_surface() {
 fn specimen_weights_exchanged() -> Subject<'static> {
     isotropic(|footprint| {
         let found = Variant::Isotropic.two_scale(footprint, 1.0);
-        let (coarse, fine): (f64, f64) = (Ideal.hash(&found.floor_cell), Ideal.hash(&found.ceil_cell));
+        let (coarse, fine): (f64, f64) =
+            (Ideal::new(0).hash(&found.floor_cell), Ideal::new(0).hash(&found.ceil_cell));
         cdf(found.lerp_factor * coarse + (1.0 - found.lerp_factor) * fine, found.lerp_factor).max(1e-6)
     })
 }
@@ -159,7 +158,7 @@ fn exchanged_weights_are_seen_in_what_neighbours_share() {
 fn specimen_white_noise() -> Subject<'static> {
     isotropic(|footprint| {
         let position = (footprint.position * 1e6).floor();
-        Ideal.hash(&Cell::<f64> { index: position, octave: 0 })
+        Ideal::new(0).hash(&Cell::<f64> { index: position, octave: 0 })
     })
 }
 
@@ -170,7 +169,7 @@ struct Columns;
 impl<R: Real> Hash<R> for Columns {
     fn hash(&self, cell: &Cell<R>) -> R {
         let [x, y, _] = cell.index.into();
-        Ideal.hash(&Cell { index: [x, y, R::from_f64(0.0)].into(), octave: cell.octave })
+        Ideal::new(0).hash(&Cell { index: [x, y, R::from_f64(0.0)].into(), octave: cell.octave })
     }
 }
 
@@ -187,7 +186,7 @@ struct LowDiscrepancy;
 impl<R: Real> Hash<R> for LowDiscrepancy {
     fn hash(&self, cell: &Cell<R>) -> R {
         let [x, y, z] = cell.index.into().map(R::to_f64);
-        let phase: f64 = Ideal.hash(&Cell::<f64> { index: DVec3::ZERO, octave: cell.octave });
+        let phase: f64 = Ideal::new(0).hash(&Cell::<f64> { index: DVec3::ZERO, octave: cell.octave });
         let value = 0.819_172_5 * x + 0.671_043_6 * y + 0.549_700_5 * z + phase;
         R::from_f64(value - value.floor())
     }

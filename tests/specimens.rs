@@ -1,283 +1,148 @@
-//! Every claim rejects a threshold that is broken in just its way, and an ideal one passes them all.
+//! The kill matrix: every specimen is rejected by the claim that it was made for, every claim rejects a specimen, and what
+//! is sound passes them all.
+//!
+//! A run tries the entries of specimens and their claims, and a part of the others that leaves out no specimen and no
+//! claim; `HASHED_ALPHA_BUDGET=nightly` tries all, `quick` only the former. `HASHED_ALPHA_BLESS=new` or `=all`
+//! writes the matrix anew and tries nothing.
 
-mod ideal;
+mod budget;
 
+use budget::budget;
 use hashed_alpha::check::claims::{self, Claim};
-use hashed_alpha::check::{Draw, Outcome, Subject, Verdict, run_claims, subject::Precision};
-use hashed_alpha::threshold::cdf;
-use hashed_alpha::threshold::footprint::Footprint;
-use hashed_alpha::threshold::hash::{Cell, Hash, HashKind};
-use hashed_alpha::threshold::hashed::HashedAlpha;
-use hashed_alpha::threshold::real::Real;
-use hashed_alpha::threshold::robust::{Repair, Repairs, Robust};
+use hashed_alpha::check::diagnosis::guesses;
+use hashed_alpha::check::specimen::matrix::{self, KillMatrix, rejects};
+use hashed_alpha::check::specimen::{self, Specimen, ideal};
+use hashed_alpha::check::subject::Precision;
+use hashed_alpha::check::{Draw, Subject, run_claims};
+use hashed_alpha::threshold::robust::Join;
 use hashed_alpha::threshold::two_scale::Variant;
-use ideal::Ideal;
+use libtest_mimic::{Arguments, Failed, Trial};
+use rayon::prelude::*;
+use std::path::Path;
 
-const SOUND: HashedAlpha<Ideal> = sound(Ideal);
+const HOW_TO_BLESS: &str = "HASHED_ALPHA_BLESS=all cargo test --test specimens";
 
-/// Listing 1 with Eq. 2 in its stable form and a hash of one's own.
-const fn sound<H>(hash: H) -> HashedAlpha<H> {
-    HashedAlpha { variant: Variant::Isotropic, hash, hash_scale: 1.0, form: cdf::CdfForm::Stable }
+fn ensure(holds: bool, message: impl FnOnce() -> String) -> Result<(), Failed> {
+    if holds { Ok(()) } else { Err(message().into()) }
 }
 
-fn claims_that_fail(outcomes: &[Outcome]) -> Vec<&'static str> {
-    outcomes.iter().filter(|outcome| !outcome.as_expected()).map(|outcome| outcome.check).collect()
+/// Writes the committed matrix anew.
+fn bless(which: &str) -> std::io::Result<()> {
+    let known = if which == "new" { KillMatrix::committed() } else { KillMatrix::default() };
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/check/specimen/matrix.txt");
+    std::fs::write(path, KillMatrix::computed(&known).to_string())
 }
 
-fn claim_named(id: &str) -> Claim {
-    claims::ALL.iter().copied().find(|claim| claim.id == id).expect("a claim of that name")
-}
-
-/// Tries a specimen and asserts that `claim` rejects it.
-fn assert_rejected_by(claim: &str, specimen: impl Fn(&Footprint<f64>) -> f64 + Send + Sync) {
-    assert_rejects(claim, Subject::new("specimen", Precision::F64, Variant::Isotropic, specimen));
-}
-
-/// Tries a subject and asserts that `claim` rejects it.
-fn assert_rejects(claim: &str, subject: Subject<'_>) {
-    let [outcome] = &run_claims(&[claim_named(claim)], &[subject], &Draw::default(), || {})[..] else {
-        panic!("one claim, one outcome")
+/// Tries the claim that a specimen was made for, and of the others one in `stride`.
+fn row(index: usize, specimen: &Specimen, stride: Option<usize>) -> Result<(), Failed> {
+    let committed = KillMatrix::committed();
+    let Some(row) = committed.row(specimen.name) else {
+        return Err(format!("the matrix has no such row; {HOW_TO_BLESS}").into());
     };
-    assert_eq!(outcome.verdict, Verdict::Rejected, "{outcome:?}");
-    assert!(outcome.finding.as_ref().is_some_and(|finding| !finding.is_empty()), "{outcome:?}");
-}
-
-#[test]
-fn an_ideal_source_passes_every_claim() {
-    for variant in [Variant::Isotropic, Variant::Anisotropic] {
-        // The listings fail by themselves, on axis-aligned planes and at the edge of the number format.
-        let Robust { hash_scale, join, repairs, .. } = Robust::new(variant);
-        let ideal = Robust { variant, hash: Ideal, hash_scale, join, repairs };
-        for precision in Precision::ALL {
-            let subject = Subject::robust("ideal", precision, ideal);
-            let failed = claims_that_fail(&run_claims(claims::ALL, &[subject], &Draw::default(), || {}));
-            assert!(failed.is_empty(), "{variant} {precision}: {failed:?}");
+    let is_named = |claim: &Claim| claim.id == specimen.claim;
+    let is_tried = |place: usize| stride.is_some_and(|stride| (index + place).is_multiple_of(stride));
+    for (place, claim) in claims::ALL.iter().enumerate() {
+        if is_named(claim) || is_tried(place) {
+            let rejected = rejects(claim, specimen);
+            ensure(rejected || !is_named(claim), || format!("{} does not reject it", claim.id))?;
+            let answer = if rejected { "rejects" } else { "does not reject" };
+            ensure(rejected == row.claims.contains(&claim.id), || {
+                format!("{} {answer} it, and the committed matrix says otherwise; {HOW_TO_BLESS}", claim.id)
+            })?;
         }
     }
+    Ok(())
 }
 
-#[test]
-fn without_the_cdf_thresholds_depend_on_the_lerp_factor() {
-    assert_rejected_by("uniform.by_lerp_factor", |footprint| SOUND.trace(footprint).interpolated);
+fn passes(subject: Subject<'static>) -> Trial {
+    let name = format!("{} in {} passes every claim", subject.name, subject.precision);
+    Trial::test(name, move || {
+        let failed: Vec<String> = run_claims(claims::ALL, &[subject], &matrix::DRAW, || {})
+            .iter()
+            .filter(|outcome| !outcome.as_expected())
+            .map(ToString::to_string)
+            .collect();
+        ensure(failed.is_empty(), || failed.join("\n"))
+    })
 }
 
-#[test]
-fn one_derivative_used_twice_changes_stability() {
-    assert_rejected_by("stability.translate", |footprint| {
-        SOUND.threshold(&Footprint { dpdy: footprint.dpdx, ..*footprint })
-    });
-}
-
-#[test]
-fn both_octaves_at_one_scale_are_not_uniform_and_too_stable() {
-    let same_scale = |footprint: &Footprint<f64>| {
-        let found = Variant::Isotropic.two_scale(footprint, 1.0);
-        let hash: f64 = Ideal.hash(&found.floor_cell);
-        let interpolated = (1.0 - found.lerp_factor) * hash + found.lerp_factor * hash;
-        cdf::cdf(interpolated, found.lerp_factor).max(1.0e-6)
-    };
-    assert_rejected_by("uniform.by_lerp_factor", same_scale);
-    assert_rejected_by("stability.translate", same_scale);
-}
-
-#[test]
-fn a_threshold_of_zero_is_out_of_range() {
-    assert_rejected_by(
-        "range",
-        |footprint| if footprint.position.x > 11.0 { 0.0 } else { SOUND.threshold(footprint) },
-    );
-}
-
-#[test]
-fn a_gamma_curve_is_not_uniform() {
-    let gamma = |footprint: &Footprint<f64>| libm::pow(SOUND.threshold(footprint), 1.1);
-    assert_rejected_by("uniform.marginal", gamma);
-    assert_rejected_by("uniform.coverage", gamma);
-}
-
-#[test]
-fn a_hash_with_few_values_has_a_bias_on_each_plane() {
-    // As the sine hash in f32: the plane is hashed into few values, each of which is mixed with z.
-    assert_rejected_by("uniform.constant_z", |footprint| sound(FewValues).threshold(footprint));
-}
-
-/// Hashes x and y into 4096 values before z comes in.
-#[derive(Clone, Copy)]
-struct FewValues;
-
-impl<R: Real> Hash<R> for FewValues {
-    fn hash(&self, cell: &Cell<R>) -> R {
-        let [x, y, _] = cell.index.into();
-        let inner: R = HashKind::Mm4.hash(&Cell { index: [x, y, R::from_f64(0.0)].into(), octave: 0 });
-        let index = [(inner * R::from_f64(4096.0)).floor(), R::from_f64(0.0), cell.index.into()[2]];
-        HashKind::Mm4.hash(&Cell { index: index.into(), octave: 0 })
-    }
-}
-
-#[test]
-fn cells_that_share_a_hash_in_twos_depend_on_their_neighbours() {
-    assert_rejected_by("independence.neighbours", |footprint| sound(Paired).threshold(footprint));
-}
-
-/// Drops the lowest bit of x.
-#[derive(Clone, Copy)]
-struct Paired;
-
-impl<R: Real> Hash<R> for Paired {
-    fn hash(&self, cell: &Cell<R>) -> R {
-        let [x, y, z] = cell.index.into();
-        let half = (x * R::from_f64(0.5)).floor();
-        Ideal.hash(&Cell { index: [half, y, z].into(), octave: cell.octave })
-    }
-}
-
-#[test]
-fn the_negative_control_notices_a_join_that_needs_no_cdf() {
-    // One scale and one hash: the value is uniform as it is.
-    let single = HashedAlpha { variant: Variant::Single, ..SOUND };
-    let subject = Subject::hashed("single", Precision::F64, single);
-    let [control] =
-        &run_claims(&[claim_named("uniform.without_cdf")], &[subject], &Draw::default(), || {})[..]
-    else {
-        panic!("one outcome")
-    };
-    assert_eq!(control.verdict, Verdict::Consistent);
-    assert!(!control.as_expected());
-}
-
-/// The robust threshold without one of its repairs.
-fn unrepaired(variant: Variant, precision: Precision, repair: Repair) -> Subject<'static> {
-    let robust = Robust { repairs: Repairs::ALL.without(repair), ..Robust::new(variant) };
-    Subject::robust("specimen", precision, robust)
-}
-
-#[test]
-fn cells_cut_at_whole_numbers_flicker_on_dyadic_planes() {
+/// What is sound: the ideal source in all that it can be, and the robust threshold.
+fn sound() -> Vec<Subject<'static>> {
+    let mut subjects = Subject::all_repairs();
     for variant in [Variant::Isotropic, Variant::Anisotropic] {
-        assert_rejects("planes.dyadic", unrepaired(variant, Precision::F32, Repair::NestedPhase));
-    }
-}
-
-#[test]
-fn without_a_floor_axis_aligned_planes_divide_by_zero() {
-    let subject = unrepaired(Variant::Anisotropic, Precision::F32, Repair::DerivativeFloor);
-    assert_rejects("planes.axis_aligned", subject);
-}
-
-#[test]
-fn leaving_out_axes_of_no_derivative_keeps_the_flicker_of_rounding() {
-    // Every threshold is a number, but where the rasteriser is off by one unit the cell is as small as that unit.
-    let robust = Robust {
-        repairs: Repairs::ALL.without(Repair::DerivativeFloor),
-        ..Robust::new(Variant::Anisotropic)
-    };
-    let patched = move |footprint: &Footprint<f64>| {
-        let mut patched = *footprint;
-        for axis in 0..3 {
-            if footprint.dpdx[axis] == 0.0 && footprint.dpdy[axis] == 0.0 {
-                patched.dpdx[axis] = footprint.dpdx.abs().max_element();
+        for join in Join::ALL {
+            // One weight for three scales jumps at every octave: a specimen of its own.
+            if (variant, join) != (Variant::Anisotropic, Join::Interpolate) {
+                subjects.extend(Precision::ALL.map(|precision| ideal(1, variant, precision, join)));
             }
         }
-        robust.threshold(&patched).ok()
+    }
+    subjects
+}
+
+fn no_row_or_column_is_empty() -> Result<(), Failed> {
+    let committed = KillMatrix::committed();
+    let names: Vec<&str> = committed.rows.iter().map(|row| row.specimen).collect();
+    let expected: Vec<&str> = specimen::ALL.iter().map(|specimen| specimen.name).collect();
+    ensure(names == expected, || format!("the specimens are others; {HOW_TO_BLESS}"))?;
+    for claim in claims::ALL {
+        ensure(committed.rejected_by(claim.id) > 0, || format!("{} rejects no specimen", claim.id))?;
+    }
+    let empty = committed.rows.iter().find(|row| row.claims.is_empty());
+    ensure(empty.is_none(), || format!("nothing rejects {empty:?}"))
+}
+
+/// With other inputs than those of the matrix, specimens are recognised as themselves.
+fn specimens_are_recognised(stride: usize) -> Result<(), Failed> {
+    let tried: Vec<&Specimen> = specimen::ALL.iter().step_by(stride).collect();
+    let draw = Draw { seed: 1, ..matrix::DRAW };
+    let is_recognised = |specimen: &&&Specimen| {
+        let found = guesses(&run_claims(claims::ALL, &[(specimen.subject)()], &draw, || {}));
+        let best = found.first().map_or(0.0, |guess| guess.likeness);
+        found.iter().any(|guess| guess.specimen.name == specimen.name && guess.likeness >= best)
     };
-    let subject = Subject::new("specimen", Precision::F64, Variant::Anisotropic, patched);
-    let [outcome] =
-        &run_claims(&[claim_named("planes.axis_aligned")], &[subject], &Draw::default(), || {})[..]
-    else {
-        panic!("one claim, one outcome")
-    };
-    assert_eq!(outcome.verdict, Verdict::Rejected, "{outcome:?}");
-    assert_eq!(outcome.p, Some(0.0), "a matter of the share that is redrawn: {outcome:?}");
+    let strange: Vec<&str> = tried
+        .par_iter()
+        .with_max_len(1)
+        .filter(|specimen| !is_recognised(specimen))
+        .map(|specimen| specimen.name)
+        .collect();
+    ensure(5 * strange.len() <= tried.len(), || {
+        format!("{} of {} are not recognised: {}", strange.len(), tried.len(), strange.join(", "))
+    })
 }
 
-#[test]
-fn layers_that_share_their_hash_hide_each_other() {
-    assert_rejected_by("layers.parallel", |footprint| sound(WithoutZ).threshold(footprint));
+/// Leaving out axes without a derivative gives a number everywhere, but where the rasteriser is off by one unit the
+/// cell is as small as that unit: the claim sees the share that is redrawn.
+fn zero_derivatives_skipped_is_rejected_for_its_flicker() -> Result<(), Failed> {
+    let skipped = specimen::ALL.iter().find(|specimen| specimen.name == "zero-derivatives-skipped");
+    let subject = skipped.map(|specimen| (specimen.subject)()).ok_or("there is no such specimen")?;
+    let outcomes = run_claims(&[claims::planes::AXIS_ALIGNED], &[subject], &matrix::DRAW, || {});
+    ensure(outcomes[0].p == Some(0.0), || outcomes[0].to_string())
 }
 
-/// Hashes x and y only.
-#[derive(Clone, Copy)]
-struct WithoutZ;
-
-impl<R: Real> Hash<R> for WithoutZ {
-    fn hash(&self, cell: &Cell<R>) -> R {
-        let [x, y, _] = cell.index.into();
-        Ideal.hash(&Cell { index: [x, y, R::from_f64(0.0)].into(), octave: cell.octave })
+fn main() -> std::io::Result<()> {
+    if let Ok(which) = std::env::var("HASHED_ALPHA_BLESS") {
+        return bless(&which);
     }
-}
-
-#[test]
-fn degenerate_inputs_need_validation_and_a_floor() {
-    for precision in Precision::ALL {
-        for repair in [Repair::ValidateInputs, Repair::DerivativeFloor] {
-            assert_rejects("range.degenerate", unrepaired(Variant::Isotropic, precision, repair));
-        }
-        assert_rejects(
-            "range.far_from_origin",
-            unrepaired(Variant::Isotropic, precision, Repair::DerivativeFloor),
-        );
-    }
-}
-
-/// A robust threshold whose hash sees another cell than the one that it is given.
-#[derive(Clone, Copy)]
-struct Redirected(fn([f64; 3], u32) -> ([f64; 3], u32));
-
-impl<R: Real> Hash<R> for Redirected {
-    fn hash(&self, cell: &Cell<R>) -> R {
-        let index: [R; 3] = cell.index.into();
-        let (index, octave) = (self.0)(index.map(R::to_f64), cell.octave);
-        HashKind::Mm4.hash(&Cell { index: index.map(R::from_f64).into(), octave })
-    }
-}
-
-/// Tries a robust threshold whose hash sees other cells.
-fn assert_rejects_redirected(claim: &str, to: fn([f64; 3], u32) -> ([f64; 3], u32)) {
-    let preset = Robust::new(Variant::Isotropic);
-    let Robust { variant, hash_scale, join, repairs, .. } = preset;
-    let robust = Robust { hash: Redirected(to), variant, hash_scale, join, repairs };
-    assert_rejects(claim, Subject::robust("specimen", Precision::F32, robust));
-}
-
-#[test]
-fn truncation_for_floor_makes_one_cell_of_two_at_zero() {
-    assert_rejects_redirected("independence.across_zero", |index, octave| {
-        (index.map(|i| if i < 0.0 { i + 1.0 } else { i }), octave)
-    });
-}
-
-#[test]
-fn cells_that_are_tied_in_a_diagonal_depend_on_each_other() {
-    assert_rejects_redirected("independence.diagonals", |[x, y, z], octave| {
-        let is_odd = |i: f64| i.rem_euclid(2.0) == 1.0;
-        if is_odd(x) && is_odd(y) { ([x - 1.0, y - 1.0, z], octave) } else { ([x, y, z], octave) }
-    });
-}
-
-#[test]
-fn an_octave_that_copies_one_above_is_no_new_noise() {
-    assert_rejects_redirected("independence.octaves", |index, octave| {
-        let is_multiple = index.iter().all(|i| i.rem_euclid(4.0) == 0.0);
-        if is_multiple { (index.map(|i| i / 4.0), octave.wrapping_sub(2)) } else { (index, octave) }
-    });
-}
-
-#[test]
-fn without_the_octave_an_object_of_half_the_size_has_the_same_noise() {
-    assert_rejects(
-        "independence.octaves",
-        unrepaired(Variant::Isotropic, Precision::F64, Repair::OctaveWord),
-    );
-}
-
-#[test]
-fn a_clamp_to_eight_bits_leaves_the_ends_of_the_range_empty() {
-    let robust = Robust::new(Variant::Isotropic);
-    let clamped = |low: f64, high: f64| {
-        Subject::new("specimen", Precision::F64, Variant::Isotropic, move |footprint: &Footprint<f64>| {
-            robust.threshold(footprint).ok().map(|threshold| threshold.clamp(low, high))
+    let stride = budget().pick(None, Some(5), Some(1));
+    let recognised = budget().pick(16, 16, 1);
+    let mut trials: Vec<Trial> = specimen::ALL
+        .iter()
+        .enumerate()
+        .map(|(index, specimen)| {
+            let name = format!("{} is rejected by {}", specimen.name, specimen.claim);
+            Trial::test(name, move || row(index, specimen, stride))
         })
-    };
-    assert_rejects("atoms.ends", clamped(1.0 / 255.0, 1.0));
-    assert_rejects("atoms.ends", clamped(1e-9, 254.0 / 255.0));
+        .collect();
+    trials.extend(sound().into_iter().map(passes));
+    trials.extend([
+        Trial::test("no_row_or_column_is_empty", no_row_or_column_is_empty),
+        Trial::test("specimens_are_recognised", move || specimens_are_recognised(recognised)),
+        Trial::test(
+            "zero_derivatives_skipped_is_rejected_for_its_flicker",
+            zero_derivatives_skipped_is_rejected_for_its_flicker,
+        ),
+    ]);
+    libtest_mimic::run(&Arguments::from_args(), trials).exit()
 }

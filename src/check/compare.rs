@@ -67,6 +67,25 @@ pub struct Comparison {
     pub agreement: Agreement,
 }
 
+/// The verdict, and the figures that it rests on.
+impl fmt::Display for Comparison {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let percent = |share: f64| 100.0 * share;
+        write!(
+            f,
+            "{}; of {} thresholds {:.2} % are equal in bits, {:.2} % are within 1e-6, the largest difference is {:.2e}; \
+             p of one law {:.3} (chi-square), {:.3} (Kolmogorov-Smirnov)",
+            self.agreement,
+            self.n,
+            percent(self.share_equal),
+            percent(self.share_within),
+            self.largest_difference,
+            self.p_chi_square,
+            self.p_kolmogorov_smirnov
+        )
+    }
+}
+
 /// Compares two subjects on surfaces in general position, at a level of 1e-6.
 ///
 /// Values are compared fragment by fragment. Laws are compared on samples that share no cell: the first subject at one

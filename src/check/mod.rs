@@ -4,6 +4,7 @@
 
 pub mod claims;
 pub mod compare;
+pub mod diagnosis;
 pub mod draw;
 pub mod evidence;
 pub mod expectation;
@@ -17,6 +18,7 @@ pub mod sample;
 pub mod shaders;
 pub mod shared_cell;
 pub mod sheet;
+pub mod specimen;
 pub mod subject;
 pub mod suite;
 pub mod tolerance;

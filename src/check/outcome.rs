@@ -93,6 +93,12 @@ impl Outcome {
         self.verdict == self.expected || self.verdict == Verdict::NotApplicable
     }
 
+    /// Returns whether there is an answer.
+    #[must_use]
+    pub fn is_answered(&self) -> bool {
+        matches!(self.verdict, Verdict::Consistent | Verdict::Rejected)
+    }
+
     /// Returns whether the answer speaks against the subject: not as expected, and not known either.
     #[must_use]
     pub fn is_news(&self) -> bool {

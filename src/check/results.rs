@@ -1,6 +1,7 @@
 //! The answers of one run about one subject, as somebody's own test suite wants them.
 
-use super::{Outcome, Suite, Verdict};
+use super::tolerance::GUESSES;
+use super::{Outcome, Suite, Verdict, diagnosis};
 use core::fmt;
 
 /// What every claim said about a subject.
@@ -51,7 +52,7 @@ pub fn excuse_the_listings(outcomes: &mut [Outcome]) {
     }
 }
 
-/// The claims that speak against the subject, or one line that says that none does.
+/// The claims that speak against the subject and what it looks like, or one line that says that none does.
 impl fmt::Display for Results {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Some(Outcome { subject, precision, seed, .. }) = self.outcomes.first() else {
@@ -71,7 +72,14 @@ impl fmt::Display for Results {
         for outcome in self.news() {
             write!(f, "\n\n{outcome}")?;
         }
-        Ok(())
+        if news == 0 {
+            return Ok(());
+        }
+        let guesses = diagnosis::guesses(&self.outcomes);
+        guesses.iter().take(GUESSES).enumerate().try_for_each(|(place, guess)| {
+            let words = if place == 0 { "\n\nlooks like" } else { "\n   or like" };
+            write!(f, "{words}: {guess}")
+        })
     }
 }
 
@@ -94,6 +102,15 @@ mod tests {
         let expected = "s in f32, suite paper, seed 0: nothing in 2 claims speaks against it; \
                         the paper's own listing fails 1 others too";
         assert_eq!(text, expected);
+    }
+
+    #[test]
+    fn a_rejected_subject_is_told_what_it_looks_like() {
+        let results = Results::new(diagnosis::tests::outcomes_of("no-cdf"), Suite::All);
+        let panic = std::panic::catch_unwind(|| results.assert()).expect_err("it is rejected");
+        let message = panic.downcast_ref::<String>().expect("a message");
+        assert!(message.contains("\n\nlooks like: no-cdf (Eq. 2 is left out"), "{message}");
+        assert!(message.contains(") - apply the CDF of Eq. 2 to the interpolated value"), "{message}");
     }
 
     #[test]

@@ -156,9 +156,9 @@ impl<'a> Subject<'a> {
     #[must_use]
     pub fn with_interpolated<T: Into<Option<f64>>>(
         self,
-        interpolated: impl Fn(&Footprint<f64>) -> T + Send + Sync + 'a,
+        interpolated: impl Fn(&Fragment) -> T + Send + Sync + 'a,
     ) -> Self {
-        let interpolated = move |fragment: &Fragment| interpolated(&fragment.footprint).into();
+        let interpolated = move |fragment: &Fragment| interpolated(fragment).into();
         Self { interpolated: Some(Box::new(interpolated)), ..self }
     }
 
@@ -328,7 +328,7 @@ impl<'a> Subject<'a> {
             let index: [R; 3] = scales::cell::<R>(footprint.position, octave, grid).index.into();
             DVec3::from_array(index.map(R::to_f64))
         };
-        let per_unit = |octave: [i32; 3]| octave.map(|k| libm::exp2(f64::from(k)));
+        let per_unit = |octave: [i32; 3]| octave.map(|k| libm::ldexp(1.0, k));
         let lerp_factor = if self.variant == Variant::Anisotropic {
             scales::corner_weight(found.fraction)
         } else {

@@ -18,6 +18,12 @@ pub const ROUND_GROWTH: usize = crate::stats::sequential::GROWTH;
 /// Most samples of one kind in memory, whatever budget and round: a few gigabytes.
 pub const SAMPLES_LIMIT: usize = 1 << 23;
 
+/// A specimen is named where it shares this much of what rejects it with a subject: with less, the two differ in most.
+pub const LEAST_LIKENESS: f64 = 0.3;
+
+/// Specimens that are named for one subject: more are no help.
+pub const GUESSES: usize = 3;
+
 /// Power at which `detectable` is stated: one defect in a thousand of that size goes unseen.
 pub const POWER: f64 = 0.999;
 

@@ -43,6 +43,7 @@ pub struct Args {
 #[derive(Debug, Subcommand)]
 pub enum Verb {
     Check(CheckArgs),
+    Compare(CompareArgs),
     Eval(EvalArgs),
     Scenes(ScenesArgs),
     Shader(ShaderTextArgs),
@@ -161,6 +162,33 @@ pub struct ShaderArgs {
     /// Over how many frames a shader file spreads its thresholds (Eq. 6)
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1024))]
     pub frames: u32,
+}
+
+/// Compares two subjects: are their thresholds equal, or of one law?
+///
+/// Values are compared in bits, laws on samples that share no cell. What rests on the sine of large arguments can have the
+/// same law on two machines, never the same values. Exit code 1 where the laws differ.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  hashed-alpha compare paper robust
+  hashed-alpha compare cpu:robust gpu:robust
+  hashed-alpha compare paper:isotropic my.wgsl")]
+pub struct CompareArgs {
+    /// A subject, as for `check`
+    #[arg(value_name = "A")]
+    pub first: String,
+    /// Another one
+    #[arg(value_name = "B")]
+    pub second: String,
+    #[command(flatten)]
+    pub shader: ShaderArgs,
+    /// Seed of every random number of the run
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub seed: u64,
+    /// How many samples are drawn: `quick` for a quarter, `nightly` for sixteen times as many
+    #[arg(long, default_value = "ci", value_parser = one_of(Budget::ALL, Budget::name))]
+    pub budget: Budget,
 }
 
 /// Prints the verified threshold in a shading language

@@ -3,7 +3,7 @@
 //! | module | holds |
 //! |---|---|
 //! | [`args`] | verbs, options and their help |
-//! | [`check`], [`eval`], [`scenes`], [`shader`] | one job a verb |
+//! | [`check`], [`compare`], [`eval`], [`scenes`], [`shader`] | one job a verb |
 //! | [`subjects`] | what a typed subject means, and where it runs |
 //! | [`rows`] | footprints as comma-separated text, read and written |
 //! | [`known`] | the TOML list of known findings |
@@ -14,6 +14,7 @@
 
 mod args;
 mod check;
+mod compare;
 mod eval;
 mod failure;
 mod known;
@@ -47,6 +48,7 @@ pub enum Ending {
 pub fn run(args: &Args) -> Result<Ending, Failure> {
     match &args.verb {
         Verb::Check(args) => check::run(args),
+        Verb::Compare(args) => compare::run(args),
         Verb::Eval(args) => eval::run(args),
         Verb::Scenes(args) => scenes::run(args),
         Verb::Shader(args) => shader::run(args),

@@ -2,6 +2,7 @@
 
 use super::answer;
 use super::text::{number, remark, summary};
+use crate::check::diagnosis::{Diagnosis, diagnoses};
 use crate::check::{Outcome, Verdict};
 use minijinja::value::Serde;
 use minijinja::{Environment, context};
@@ -127,6 +128,7 @@ pub fn page(
         subjects,
         rows => Serde(&rows),
         claims => Serde(&listed),
+        lookalikes => Serde(&lookalikes(outcomes)),
     })
 }
 
@@ -156,6 +158,28 @@ fn claim<'a>(index: usize, outcome: &'a Outcome, picture: Option<&'a str>) -> Cl
             outcome.check, outcome.subject, outcome.precision
         ),
     }
+}
+
+/// A specimen that a subject of the run looks like.
+#[derive(Serialize)]
+struct Lookalike {
+    subject: String,
+    name: &'static str,
+    defect: &'static str,
+    mend: &'static str,
+}
+
+fn lookalikes(outcomes: &[Outcome]) -> Vec<Lookalike> {
+    let of_subject = |diagnosis: Diagnosis<'_>| {
+        let subject = format!("{}, {}", diagnosis.subject, diagnosis.precision);
+        diagnosis.guesses.into_iter().map(move |guess| Lookalike {
+            subject: subject.clone(),
+            name: guess.specimen.name,
+            defect: guess.specimen.defect,
+            mend: guess.specimen.mend,
+        })
+    };
+    diagnoses(outcomes).into_iter().flat_map(of_subject).collect()
 }
 
 /// The class of a badge: what a reader should make of the outcome.
@@ -229,6 +253,19 @@ mod tests {
         assert_eq!(page.matches("<img").count(), 3);
         assert_eq!(page.matches(" alt=\"").count(), 3);
         assert_eq!(page, rendered());
+    }
+
+    #[test]
+    fn a_rejected_subject_is_told_what_it_looks_like() {
+        let outcome = Outcome {
+            check: "uniform.without_cdf",
+            verdict: Verdict::Consistent,
+            expected: Verdict::Rejected,
+            ..example::consistent()
+        };
+        let rejected = page(&[outcome], &[], &run()).unwrap();
+        assert!(rejected.contains("<h2>Looks like</h2>") && rejected.contains("one-scale-of-any-size"));
+        assert!(!page(&[example::consistent()], &[], &run()).unwrap().contains("Looks like"));
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! The outcomes as a table for a terminal, at most [`COLUMNS`] wide.
 
 use super::answer;
+use crate::check::diagnosis::{Diagnosis, diagnoses};
 use crate::check::{Outcome, Verdict};
 use std::fmt::Write as _;
 
@@ -17,7 +18,7 @@ const INDENT: &str = "    ";
 const SHORTEST_NAME: usize = 12;
 
 /// Returns the table, with a line break after every line: headings, one line a claim, below it its finding where it
-/// has one, and [`summary`].
+/// has one, then what each subject looks like that something speaks against, and [`summary`].
 ///
 /// `colour` puts ANSI colours around verdicts: green where the answer is the expected one, red where it is not,
 /// yellow where there is none. Without it the text is plain. Names that do not fit are cut in the middle.
@@ -42,6 +43,9 @@ pub fn table(outcomes: &[Outcome], colour: bool) -> String {
         let paint = colour.then(|| paint_of(outcome));
         push_row(&mut text, row, &widths, paint);
         push_finding(&mut text, outcome, paint);
+    }
+    for diagnosis in diagnoses(outcomes) {
+        push_diagnosis(&mut text, &diagnosis);
     }
     wrap(&summary(outcomes), COLUMNS).iter().for_each(|line| push_line(&mut text, line));
     text
@@ -175,6 +179,19 @@ fn push_finding(text: &mut String, outcome: &Outcome, paint: Option<&str>) {
     }
 }
 
+fn push_diagnosis(text: &mut String, diagnosis: &Diagnosis<'_>) {
+    for (place, guess) in diagnosis.guesses.iter().enumerate() {
+        let line = match place {
+            0 => format!("{} in {} looks like: {guess}", diagnosis.subject, diagnosis.precision),
+            _ => format!("or like: {guess}"),
+        };
+        for (part, line) in wrap(&line, COLUMNS - INDENT.len()).iter().enumerate() {
+            let indent = if place == 0 && part == 0 { "" } else { INDENT };
+            push_line(text, &format!("{indent}{line}"));
+        }
+    }
+}
+
 /// Breaks a text between words; a word that is longer than the line is broken too.
 fn wrap(text: &str, width: usize) -> Vec<String> {
     let mut lines = vec![String::new()];
@@ -238,6 +255,23 @@ mod tests {
         assert!(text.contains("    rejected, as it must be: neighbouring cells share a factor\n"));
         assert!(text.contains("    not rejected, though it must be\n"));
         assert!(text.contains("    no adapter\n"));
+    }
+
+    #[test]
+    fn a_rejected_subject_is_told_what_it_looks_like() {
+        let outcome = Outcome {
+            check: "uniform.without_cdf",
+            subject: "mine".to_owned(),
+            verdict: Verdict::Consistent,
+            expected: Verdict::Rejected,
+            ..example::consistent()
+        };
+        let text = table(&[outcome], false);
+        assert!(
+            text.contains("\nmine in f32 looks like: one-scale-of-any-size (there is one hash"),
+            "{text}"
+        );
+        assert!(!table(&[example::consistent()], false).contains("looks like"));
     }
 
     #[test]

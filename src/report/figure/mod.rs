@@ -13,10 +13,12 @@
 //! | [`validity`] | where each arithmetic keeps the law of the hash |
 //! | [`planes`] | bias, flicker and missing thresholds on planes that follow an axis |
 //! | [`evidence`] | what a claim saw |
+//! | [`kill_matrix`] | which claims reject which specimens |
 
 pub mod before_and_after;
 pub mod cdf_family;
 pub mod evidence;
+pub mod kill_matrix;
 pub mod noise;
 pub mod planes;
 pub mod stability;

@@ -1,0 +1,142 @@
+//! What a rejected threshold looks like: the specimens that much the same claims reject.
+
+use super::Outcome;
+use super::specimen::{self, Specimen, matrix::KillMatrix};
+use super::tolerance::{GUESSES, LEAST_LIKENESS};
+use core::fmt;
+
+/// A specimen that a subject looks like.
+#[derive(Clone, Copy, Debug)]
+pub struct Guess {
+    /// The specimen.
+    pub specimen: &'static Specimen,
+    /// How much the claims that reject the two have in common, from 0, nothing, to 1, all.
+    pub likeness: f64,
+}
+
+/// Name, defect and mend.
+impl fmt::Display for Guess {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Specimen { name, defect, mend, .. } = self.specimen;
+        write!(f, "{name} ({defect}) - {mend}")
+    }
+}
+
+/// Returns the specimens that the subject of these outcomes looks like, the likest first; specimens that are equally
+/// like it keep their order.
+///
+/// Only claims that were tried and gave an answer count, and none that is known to fail: under
+/// [`Suite::Paper`](super::Suite::Paper) those are the ones that the paper's own listing fails. Empty where nothing
+/// speaks against the subject, and where it looks like none of the specimens.
+#[must_use]
+pub fn guesses(outcomes: &[Outcome]) -> Vec<Guess> {
+    let matrix = KillMatrix::committed();
+    let tried: Vec<&Outcome> =
+        outcomes.iter().filter(|outcome| outcome.is_answered() && outcome.known.is_none()).collect();
+    let weight =
+        |claim: &str| libm::log((matrix.rows.len() + 1) as f64 / (matrix.rejected_by(claim) + 1) as f64);
+    let weighed: Vec<(&Outcome, f64)> =
+        tried.into_iter().map(|outcome| (outcome, weight(outcome.check))).collect();
+    let likeness = |specimen: &'static Specimen| {
+        let row = matrix.row(specimen.name)?;
+        let (mut both, mut either) = (0.0, 0.0);
+        for &(outcome, weight) in &weighed {
+            match (!outcome.as_expected(), row.claims.contains(&outcome.check)) {
+                (true, true) => (both, either) = (both + weight, either + weight),
+                (false, false) => {}
+                _ => either += weight,
+            }
+        }
+        let likeness = if either > 0.0 { both / either } else { 0.0 };
+        (likeness >= LEAST_LIKENESS).then_some(Guess { specimen, likeness })
+    };
+    let mut guesses: Vec<Guess> = specimen::ALL.iter().filter_map(likeness).collect();
+    guesses.sort_by(|a, b| b.likeness.total_cmp(&a.likeness));
+    guesses
+}
+
+/// What one subject of a run looks like.
+#[derive(Clone, Debug)]
+pub struct Diagnosis<'a> {
+    /// Name of the subject.
+    pub subject: &'a str,
+    /// "f32" or "f64".
+    pub precision: &'static str,
+    /// The likest specimens, at most three.
+    pub guesses: Vec<Guess>,
+}
+
+/// Returns what the subjects of a run look like, as far as anything speaks against them.
+#[must_use]
+pub fn diagnoses(outcomes: &[Outcome]) -> Vec<Diagnosis<'_>> {
+    let of_one_subject = |a: &Outcome, b: &Outcome| a.subject == b.subject && a.precision == b.precision;
+    let diagnosis = |outcomes: &[Outcome]| {
+        let mut found = guesses(outcomes);
+        found.truncate(GUESSES);
+        found
+    };
+    outcomes
+        .chunk_by(of_one_subject)
+        .map(|of| Diagnosis { subject: &of[0].subject, precision: of[0].precision, guesses: diagnosis(of) })
+        .filter(|diagnosis| !diagnosis.guesses.is_empty())
+        .collect()
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::super::outcome::tests::outcome;
+    use super::super::{Verdict, claims};
+    use super::*;
+
+    /// The outcomes of a specimen as the matrix has them.
+    pub(in crate::check) fn outcomes_of(specimen: &str) -> Vec<Outcome> {
+        let matrix = KillMatrix::committed();
+        let row = matrix.row(specimen).expect("a row of that name");
+        let answer = |claim: &claims::Claim| {
+            let rejected = row.claims.contains(&claim.id) != (claim.expected == Verdict::Rejected);
+            let verdict = if rejected { Verdict::Rejected } else { Verdict::Consistent };
+            Outcome { expected: claim.expected, ..outcome(claim.id, verdict) }
+        };
+        claims::ALL.iter().map(answer).collect()
+    }
+
+    #[test]
+    fn every_row_of_the_matrix_leads_back_to_its_specimen() {
+        for specimen in specimen::ALL {
+            let found = guesses(&outcomes_of(specimen.name));
+            let own = found.iter().find(|guess| guess.specimen.name == specimen.name);
+            assert!(own.is_some_and(|own| own.likeness == 1.0), "{specimen:?}: {found:?}");
+        }
+    }
+
+    #[test]
+    fn what_is_sound_looks_like_nothing() {
+        let sound: Vec<Outcome> = claims::ALL
+            .iter()
+            .map(|claim| Outcome { expected: claim.expected, ..outcome(claim.id, claim.expected) })
+            .collect();
+        assert!(guesses(&sound).is_empty() && diagnoses(&sound).is_empty());
+    }
+
+    #[test]
+    fn what_is_known_to_fail_does_not_count() {
+        let mut outcomes = outcomes_of("no-cdf");
+        let other = outcomes.iter_mut().find(|outcome| outcome.check == "range.degenerate");
+        let other = other.expect("a claim of that name");
+        (other.verdict, other.known) = (Verdict::Rejected, Some("it divides by zero".into()));
+        let found = guesses(&outcomes);
+        assert!(found[0].specimen.name == "no-cdf" && found[0].likeness == 1.0, "{found:?}");
+    }
+
+    #[test]
+    fn each_subject_of_a_run_has_a_diagnosis_of_its_own() {
+        let mut outcomes = outcomes_of("no-cdf");
+        outcomes.extend(
+            outcomes_of("unchecked-inputs").into_iter().map(|o| Outcome { subject: "other".into(), ..o }),
+        );
+        let found = diagnoses(&outcomes);
+        let names: Vec<_> = found.iter().map(|of| (of.subject, of.guesses[0].specimen.name)).collect();
+        assert_eq!(names, [("s", "no-cdf"), ("other", "unchecked-inputs")]);
+        assert!(found.iter().all(|of| of.guesses.len() <= GUESSES));
+    }
+}

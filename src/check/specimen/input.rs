@@ -1,0 +1,59 @@
+//! Hashed from other coordinates than the object's.
+
+use super::Specimen;
+use super::port::{Port, SOUND};
+use crate::scene::Fragment;
+use crate::threshold::footprint::Footprint;
+use glam::DVec3;
+
+/// Listing 1 at another position, with the derivatives as they are.
+const fn reading(read: fn(&Fragment) -> Footprint<f64>) -> Port {
+    Port { read, ..SOUND }
+}
+
+pub(super) const FAMILY: &[Specimen] = &[
+    Specimen {
+        name: "screen-space",
+        defect: "the pixel is hashed, so the noise stays on the screen while the object moves",
+        mend: "hash the position in object coordinates",
+        claim: "stability.translate",
+        subject: || reading(|at| Footprint { position: at.pixel.extend(0.0), ..at.footprint }).subject(),
+    },
+    Specimen {
+        name: "eye-space",
+        defect: "the position in eye coordinates is hashed, so the object swims through its noise as the camera moves",
+        mend: "hash the position in object coordinates",
+        claim: "uniform.marginal",
+        subject: || reading(|at| Footprint { position: at.eye, ..at.footprint }).subject(),
+    },
+    Specimen {
+        name: "world-space",
+        defect: "the position in world coordinates is hashed, so a moving object swims through its noise",
+        mend: "hash the position in object coordinates",
+        claim: "uniform.marginal",
+        subject: || reading(|at| Footprint { position: at.world, ..at.footprint }).subject(),
+    },
+    Specimen {
+        name: "texture-space",
+        defect: "texture coordinates are hashed, so the noise is as coarse as the texture is stretched, and repeats with it",
+        mend: "hash the position in object coordinates",
+        claim: "uniform.marginal",
+        subject: || reading(|at| Footprint { position: at.texcoord.extend(0.0), ..at.footprint }).subject(),
+    },
+    Specimen {
+        name: "one-threshold-an-object",
+        defect: "the hash is taken of the object and not of its cells: the whole object comes or goes at once",
+        mend: "hash the cell of the position",
+        claim: "uniform.coverage",
+        subject: || reading(|at| Footprint { position: DVec3::ONE, ..at.footprint }).subject(),
+    },
+    Specimen {
+        name: "mirrored-coordinates",
+        defect: "the absolute value of each coordinate is hashed, so the noise is its own mirror image",
+        mend: "keep the sign of the coordinates, as two's complement or as a bit of the hash",
+        claim: "cells.mirror",
+        subject: || {
+            reading(|at| Footprint { position: at.footprint.position.abs(), ..at.footprint }).subject()
+        },
+    },
+];

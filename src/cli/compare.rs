@@ -1,0 +1,54 @@
+//! `compare`: two subjects side by side.
+
+use super::args::CompareArgs;
+use super::failure::Failure;
+use super::{Ending, output, subjects};
+use hashed_alpha::check::compare::{Agreement, compare};
+use hashed_alpha::check::{Draw, Subject};
+use std::io::Write;
+
+/// Compares every subject of the first name with its counterpart of the second.
+pub fn run(args: &CompareArgs) -> Result<Ending, Failure> {
+    let [left, right] = [&args.first, &args.second]
+        .map(|typed| subjects::subjects(std::slice::from_ref(typed), &args.shader));
+    let (left, right) = (left?, right?);
+    let pairs = pairs(&left, &right);
+    if pairs.is_empty() {
+        return Err(Failure::Usage(format!(
+            "{} and {} have no variant and precision in common",
+            args.first, args.second
+        )));
+    }
+    let draw = Draw { seed: args.seed, budget: args.budget, round: 0 };
+    let mut results = output::results();
+    let mut ending = Ending::Consistent;
+    for (a, b) in pairs {
+        let line = match compare(a, b, &draw) {
+            Ok(found) => {
+                if found.agreement == Agreement::DifferentLaws {
+                    ending = Ending::Rejected;
+                }
+                found.to_string()
+            }
+            Err(reason) => {
+                ending = if ending == Ending::Rejected { ending } else { Ending::NoVerdict };
+                format!("unavailable: {reason}")
+            }
+        };
+        writeln!(results, "{} and {} in {}: {line}", a.name, b.name, a.precision).map_err(Failure::Output)?;
+    }
+    results.flush().map_err(Failure::Output)?;
+    Ok(ending)
+}
+
+/// Subjects that belong together: of one variant, and of one precision where both have it.
+fn pairs<'a>(
+    left: &'a [Subject<'static>],
+    right: &'a [Subject<'static>],
+) -> Vec<(&'a Subject<'static>, &'a Subject<'static>)> {
+    left.iter()
+        .filter_map(|a| {
+            right.iter().find(|b| b.variant == a.variant && b.precision == a.precision).map(|b| (a, b))
+        })
+        .collect()
+}

@@ -1,0 +1,160 @@
+//! The battery on the ideal source, once for each of many keys and seeds: no run rejects anything, and the p-values of
+//! every claim are what they say.
+//!
+//! 20 runs at [`Budget::Quick`]; `HASHED_ALPHA_BUDGET=nightly` makes it a thousand, `quick` eight, and
+//! `HASHED_ALPHA_RUNS` any other number. With `HASHED_ALPHA_BLESS=all` the table goes to `docs/calibration.md`.
+
+mod budget;
+
+use budget::budget;
+use hashed_alpha::check::claims::{self, Claim, Conclusion};
+use hashed_alpha::check::specimen::ideal;
+use hashed_alpha::check::subject::Precision;
+use hashed_alpha::check::tolerance::{FAMILY_LEVEL, SUSPICION};
+use hashed_alpha::check::{Budget, Draw, Subject, Verdict, run_claims};
+use hashed_alpha::stats::sequential::{self, Finding};
+use hashed_alpha::stats::{binomial, ecdf};
+use hashed_alpha::threshold::robust::Join;
+use hashed_alpha::threshold::two_scale::Variant;
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::path::Path;
+
+/// Claims whose p-value is that of one continuous statistic: uniform in both directions. All others take the least of
+/// several p-values (Bonferroni), a bound, or a count, so that their p-values may only be larger than uniform.
+const UNIFORM: [&str; 2] = ["uniform.marginal", "uniform.constant_z"];
+
+/// Chance that the p-values of a sound claim fail either test.
+const LEVEL: f64 = 1.0e-4;
+
+/// What is tried in turn: every variant and join that is continuous, in both precisions.
+const KINDS: [(Variant, Join); 5] = [
+    (Variant::Isotropic, Join::Interpolate),
+    (Variant::Isotropic, Join::Copula),
+    (Variant::Isotropic, Join::Dithered),
+    (Variant::Anisotropic, Join::Copula),
+    (Variant::Anisotropic, Join::Dithered),
+];
+
+fn subject(run: u64) -> Subject<'static> {
+    let (variant, join) = KINDS[run as usize % KINDS.len()];
+    ideal(run, variant, Precision::ALL[run as usize / KINDS.len() % 2], join)
+}
+
+/// The p-values of the first round of one run; those of a rejection, and of what is no number, in words.
+fn battery(run: u64) -> Result<Vec<(&'static str, f64)>, String> {
+    let (subject, draw) = (subject(run), Draw { seed: run, budget: Budget::Quick, round: 0 });
+    let mut found = Vec::new();
+    for claim in claims::ALL.iter().filter(|claim| claim.expected == Verdict::Consistent) {
+        let trial = (claim.run)(&subject, &draw).unwrap_or_else(|ended| *ended);
+        match trial.conclusion {
+            Conclusion::Probability(p) => found.push((claim.id, p)),
+            Conclusion::Exact { holds: true } | Conclusion::NotApplicable => {}
+            _ => return Err(format!("run {run}: {} of {}: {}", claim.id, subject.name, trial.seen)),
+        }
+    }
+    let p: Vec<f64> = found.iter().map(|&(_, p)| p).collect();
+    let judged = sequential::judge(&p, 0, FAMILY_LEVEL, SUSPICION);
+    if judged.iter().any(|judgement| judgement.finding != Finding::Cleared) {
+        retried(run, &subject, &draw)?;
+    }
+    Ok(found)
+}
+
+/// Tries all claims again as a run does, which asks suspect ones for more.
+fn retried(run: u64, subject: &Subject<'_>, draw: &Draw) -> Result<(), String> {
+    let outcomes = run_claims(claims::ALL, core::slice::from_ref(subject), draw, || {});
+    match outcomes.iter().find(|outcome| outcome.verdict == Verdict::Rejected && !outcome.as_expected()) {
+        Some(outcome) => Err(format!("run {run}: {outcome}")),
+        None => Ok(()),
+    }
+}
+
+/// How the p-values of one claim compare with the uniform law.
+struct Calibration {
+    claim: &'static str,
+    runs: u64,
+    least: f64,
+    /// P-values below 1e-3, and the probability of so many.
+    small: u64,
+    p_of_small: f64,
+    /// The largest excess of their distribution function over the uniform one, or the distance in both directions.
+    distance: f64,
+    /// What the distance must not reach.
+    most: f64,
+}
+
+fn calibration(claim: &'static str, mut p: Vec<f64>) -> Calibration {
+    p.sort_by(f64::total_cmp);
+    let n = p.len() as f64;
+    let above = p.iter().enumerate().map(|(i, &p)| (i + 1) as f64 / n - p).fold(0.0, f64::max);
+    let below = p.iter().enumerate().map(|(i, &p)| p - i as f64 / n).fold(0.0, f64::max);
+    let both = UNIFORM.contains(&claim);
+    let small = p.iter().filter(|&&p| p < 1.0e-3).count() as u64;
+    Calibration {
+        claim,
+        runs: p.len() as u64,
+        least: p[0],
+        small,
+        p_of_small: binomial::poisson_upper_p(small, 1.0e-3 * n),
+        distance: if both { above.max(below) } else { above },
+        // The bound of Dvoretzky, Kiefer, Wolfowitz and Massart, in both directions or one.
+        most: ecdf::dkwm_distance(p.len() as u64, if both { LEVEL } else { 2.0 * LEVEL }),
+    }
+}
+
+impl Calibration {
+    fn holds(&self) -> bool {
+        self.distance < self.most && self.p_of_small > LEVEL
+    }
+
+    fn row(&self) -> String {
+        let law = if UNIFORM.contains(&self.claim) { "uniform" } else { "uniform or larger" };
+        format!(
+            "| {} | {law} | {} | {:.1e} | {} | {:.4} | {:.4} |",
+            self.claim, self.runs, self.least, self.small, self.distance, self.most
+        )
+    }
+}
+
+fn page(runs: u64, table: &[Calibration]) -> String {
+    let mut page = format!(
+        "# Calibration\n\n\
+         The whole battery at the budget `quick` on the ideal source (SipHash-2-4), {runs} runs with a key and a seed \
+         each,\nin turn over isotropic and anisotropic, over every join that is continuous, and over `f32` and `f64`. \
+         No run\nrejected anything. Written by `HASHED_ALPHA_RUNS={runs} HASHED_ALPHA_BLESS=all cargo test --test \
+         calibration`.\n\n\
+         A p-value that is the least of several (Bonferroni), a bound or that of a count may be larger than uniform, \
+         never\nsmaller; the distance is then the excess of their distribution function over the uniform one.\n\n\
+         | claim | p-values are | runs | least | below 1e-3 | distance | must stay below |\n\
+         |---|---|---|---|---|---|---|\n"
+    );
+    for calibration in table {
+        writeln!(page, "{}", calibration.row()).expect("writing into memory cannot fail");
+    }
+    page
+}
+
+#[test]
+fn an_ideal_source_is_never_rejected_and_its_p_values_are_true() {
+    let asked = std::env::var("HASHED_ALPHA_RUNS").ok();
+    let runs = asked.map_or(budget().pick(8, 20, 1000), |runs| runs.parse().expect("a number of runs"));
+    let numbers: Vec<u64> = (0..runs).collect();
+    let found: Vec<_> = numbers.into_par_iter().with_max_len(1).map(battery).collect();
+    let rejected: Vec<&String> = found.iter().filter_map(|run| run.as_ref().err()).collect();
+    assert!(rejected.is_empty(), "{rejected:#?}");
+    let mut by_claim: BTreeMap<&str, Vec<f64>> = BTreeMap::new();
+    for (claim, p) in found.into_iter().flatten().flatten() {
+        by_claim.entry(claim).or_default().push(p);
+    }
+    let in_order = |claim: &Claim| Some(calibration(claim.id, by_claim.remove(claim.id)?));
+    let table: Vec<Calibration> = claims::ALL.iter().filter_map(in_order).collect();
+    assert!(table.len() > 20, "most claims give a probability");
+    if std::env::var_os("HASHED_ALPHA_BLESS").is_some() {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/calibration.md");
+        std::fs::write(path, page(runs, &table)).expect("the page can be written");
+    }
+    let failed: Vec<String> = table.iter().filter(|claim| !claim.holds()).map(Calibration::row).collect();
+    assert!(failed.is_empty(), "{failed:#?}");
+}
