@@ -120,23 +120,23 @@ pub(super) mod tests {
 
     #[test]
     fn what_is_known_to_fail_does_not_count() {
-        let mut outcomes = outcomes_of("no-cdf");
+        let mut outcomes = outcomes_of("dfdx-twice");
         let other = outcomes.iter_mut().find(|outcome| outcome.check == "range.degenerate");
         let other = other.expect("a claim of that name");
         (other.verdict, other.known) = (Verdict::Rejected, Some("it divides by zero".into()));
         let found = guesses(&outcomes);
-        assert!(found[0].specimen.name == "no-cdf" && found[0].likeness == 1.0, "{found:?}");
+        assert!(found[0].specimen.name == "dfdx-twice" && found[0].likeness == 1.0, "{found:?}");
     }
 
     #[test]
     fn each_subject_of_a_run_has_a_diagnosis_of_its_own() {
-        let mut outcomes = outcomes_of("no-cdf");
+        let mut outcomes = outcomes_of("dfdx-twice");
         outcomes.extend(
             outcomes_of("unchecked-inputs").into_iter().map(|o| Outcome { subject: "other".into(), ..o }),
         );
         let found = diagnoses(&outcomes);
         let names: Vec<_> = found.iter().map(|of| (of.subject, of.guesses[0].specimen.name)).collect();
-        assert_eq!(names, [("s", "no-cdf"), ("other", "unchecked-inputs")]);
+        assert_eq!(names, [("s", "dfdx-twice"), ("other", "unchecked-inputs")]);
         assert!(found.iter().all(|of| of.guesses.len() <= GUESSES));
     }
 }

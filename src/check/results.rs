@@ -106,11 +106,16 @@ mod tests {
 
     #[test]
     fn a_rejected_subject_is_told_what_it_looks_like() {
-        let results = Results::new(diagnosis::tests::outcomes_of("no-cdf"), Suite::All);
+        let results = Results::new(diagnosis::tests::outcomes_of("dfdx-twice"), Suite::All);
         let panic = std::panic::catch_unwind(|| results.assert()).expect_err("it is rejected");
         let message = panic.downcast_ref::<String>().expect("a message");
-        assert!(message.contains("\n\nlooks like: no-cdf (Eq. 2 is left out"), "{message}");
-        assert!(message.contains(") - apply the CDF of Eq. 2 to the interpolated value"), "{message}");
+        assert!(
+            message.contains(
+                "\n\nlooks like: dfdx-twice (the derivative along screen x stands in for the one along y"
+            ),
+            "{message}"
+        );
+        assert!(message.contains(") - take dFdy for the second derivative"), "{message}");
     }
 
     #[test]

@@ -267,10 +267,7 @@ mod tests {
             ..example::consistent()
         };
         let text = table(&[outcome], false);
-        assert!(
-            text.contains("\nmine in f32 looks like: one-scale-of-any-size (there is one hash"),
-            "{text}"
-        );
+        assert!(text.contains("\nmine in f32 looks like: "), "{text}");
         assert!(!table(&[example::consistent()], false).contains("looks like"));
     }
 

@@ -23,14 +23,14 @@ pub(super) const FAMILY: &[Specimen] = &[
         name: "eye-space",
         defect: "the position in eye coordinates is hashed, so the object swims through its noise as the camera moves",
         mend: "hash the position in object coordinates",
-        claim: "uniform.marginal",
+        claim: "stability.translate",
         subject: || reading(|at| Footprint { position: at.eye, ..at.footprint }).subject(),
     },
     Specimen {
         name: "world-space",
         defect: "the position in world coordinates is hashed, so a moving object swims through its noise",
         mend: "hash the position in object coordinates",
-        claim: "uniform.marginal",
+        claim: "exact.cells",
         subject: || reading(|at| Footprint { position: at.world, ..at.footprint }).subject(),
     },
     Specimen {
