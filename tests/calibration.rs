@@ -1,7 +1,7 @@
 //! The battery on the ideal source, once for each of many keys and seeds: no run rejects anything, and the p-values of
 //! every claim are what they say.
 //!
-//! 20 runs at [`Budget::Quick`]; `HASHED_ALPHA_BUDGET=nightly` makes it a thousand, `quick` eight, and
+//! Eight runs at [`Budget::Quick`]; `HASHED_ALPHA_BUDGET=nightly` makes it a thousand, `quick` four, and
 //! `HASHED_ALPHA_RUNS` any other number. With `HASHED_ALPHA_BLESS=all` the table goes to `docs/calibration.md`.
 
 mod budget;
@@ -139,7 +139,7 @@ fn page(runs: u64, table: &[Calibration]) -> String {
 #[test]
 fn an_ideal_source_is_never_rejected_and_its_p_values_are_true() {
     let asked = std::env::var("HASHED_ALPHA_RUNS").ok();
-    let runs = asked.map_or(budget().pick(8, 20, 1000), |runs| runs.parse().expect("a number of runs"));
+    let runs = asked.map_or(budget().pick(4, 8, 1000), |runs| runs.parse().expect("a number of runs"));
     let numbers: Vec<u64> = (0..runs).collect();
     let found: Vec<_> = numbers.into_par_iter().with_max_len(1).map(battery).collect();
     let rejected: Vec<&String> = found.iter().filter_map(|run| run.as_ref().err()).collect();

@@ -6,7 +6,7 @@ use crate::threshold::real::{SIN_F32_DOMAIN, log2_everywhere, sin_f32, sin_in_do
 
 impl Isa {
     /// Writes the sine of every element of `x` (radians) to `out`: bit for bit what
-    /// [`sin_f32`](crate::threshold::real::sin_f32) gives, special values too.
+    /// [`sin_f32`] gives, special values too.
     ///
     /// Arguments beyond its domain are computed one by one.
     ///
