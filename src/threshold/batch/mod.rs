@@ -27,15 +27,11 @@ pub mod columns;
 mod double;
 mod evaluate;
 pub mod isa;
-<<<<<<< HEAD
-pub(crate) mod slices;
-=======
 mod lane;
 mod octaves;
 mod plan;
-mod slices;
+pub(crate) mod slices;
 mod stream;
->>>>>>> c6e64fa (Thresholds by the thousand: every variant, hash and join in vector instructions, the scalar's bits)
 
 pub use bins::Bins;
 pub use columns::{ColumnBuffer, Columns};
@@ -52,10 +48,7 @@ use core::fmt;
 pub const BLOCK: usize = 128;
 
 /// One array of a block.
-<<<<<<< HEAD
 pub(crate) type Block<T> = [T; BLOCK];
-=======
-type Block<T> = [T; BLOCK];
 
 /// A precision that is evaluated in batches: `f32` or `f64`, and no other.
 pub trait Lane: lane::Kernel {
@@ -198,4 +191,3 @@ impl Batch {
         R::thresholds(self, columns, out);
     }
 }
->>>>>>> c6e64fa (Thresholds by the thousand: every variant, hash and join in vector instructions, the scalar's bits)
