@@ -55,6 +55,7 @@ impl FromStr for CdfForm {
 }
 
 /// Returns `min(lerp_factor, 1 - lerp_factor)`, the paper's `a`, in [0, 1/2].
+#[inline(always)]
 #[must_use]
 pub fn minor_weight<R: Real>(lerp_factor: R) -> R {
     Real::min(lerp_factor, R::from_f64(1.0) - lerp_factor)
@@ -64,6 +65,7 @@ pub fn minor_weight<R: Real>(lerp_factor: R) -> R {
 ///
 /// `lerp_factor` in [0, 1]. NaN where it is 0 or 1 and `x` is 1: the third case then divides zero by zero. In `f32`
 /// one step backwards of 1 ULP stands at the junction of the last two cases for `a` = 1/2 - 2^-25.
+#[inline(always)]
 #[must_use]
 pub fn cdf_literal<R: Real>(x: R, lerp_factor: R) -> R {
     let [half, one, two] = [0.5, 1.0, 2.0].map(R::from_f64);
@@ -80,6 +82,7 @@ pub fn cdf_literal<R: Real>(x: R, lerp_factor: R) -> R {
 /// `lerp_factor` in [0, 1]. For every such pair the value is in [0, 1], 0 at 0, 1 at 1 and non-decreasing in `x`:
 /// each case divides only where its divisor is above a number that is not negative. Within 2^-23 of Eq. 2 in `f32`.
 /// Not in the paper; equal to [`cdf_literal`] up to rounding.
+#[inline(always)]
 #[must_use]
 pub fn cdf<R: Real>(x: R, lerp_factor: R) -> R {
     let [half, one] = [0.5, 1.0].map(R::from_f64);

@@ -111,24 +111,28 @@ pub trait Real:
     ///
     /// The value is in [0, 1]: rounding brings it to exactly 1 for a negative argument closer to zero than half an
     /// ULP of one.
+    #[inline]
     #[must_use]
     fn fract(self) -> Self {
         self - self.floor()
     }
 
     /// Returns `other` where `other < self`, else `self` (GLSL's `min`; a NaN in `self` stays).
+    #[inline]
     #[must_use]
     fn min(self, other: Self) -> Self {
         if other < self { other } else { self }
     }
 
     /// Returns `other` where `self < other`, else `self` (GLSL's `max`; a NaN in `self` stays).
+    #[inline]
     #[must_use]
     fn max(self, other: Self) -> Self {
         if self < other { other } else { self }
     }
 
     /// Returns `min(max(self, low), high)`, GLSL's `clamp`; NaN stays NaN.
+    #[inline]
     #[must_use]
     fn clamp(self, low: Self, high: Self) -> Self {
         Real::min(Real::max(self, low), high)
@@ -142,27 +146,36 @@ macro_rules! shared_items {
         const NAME: &'static str = stringify!($real);
         const MAX_EXPONENT: i32 = <$real>::MAX_EXP - 1;
 
+        #[inline]
+
         fn to_word(self) -> u32 {
             self as i64 as u32
         }
+        #[inline]
         fn to_i32(self) -> i32 {
             self as i32
         }
+        #[inline]
         fn floor(self) -> Self {
             <$real>::floor(self)
         }
+        #[inline]
         fn ceil(self) -> Self {
             <$real>::ceil(self)
         }
+        #[inline]
         fn abs(self) -> Self {
             <$real>::abs(self)
         }
+        #[inline]
         fn sqrt(self) -> Self {
             <$real>::sqrt(self)
         }
+        #[inline]
         fn is_nan(self) -> bool {
             <$real>::is_nan(self)
         }
+        #[inline]
         fn is_finite(self) -> bool {
             <$real>::is_finite(self)
         }
@@ -172,18 +185,23 @@ macro_rules! shared_items {
 impl Real for f32 {
     shared_items!(f32, glam::Vec3);
 
+    #[inline]
     fn from_f64(value: f64) -> Self {
         value as f32
     }
+    #[inline]
     fn to_f64(self) -> f64 {
         f64::from(self)
     }
+    #[inline]
     fn sin(self) -> Self {
         sin_f32(self)
     }
+    #[inline]
     fn log2(self) -> Self {
         log2_f32(self)
     }
+    #[inline]
     fn exp2(self) -> Self {
         exp2_f32(self)
     }
@@ -192,18 +210,23 @@ impl Real for f32 {
 impl Real for f64 {
     shared_items!(f64, glam::DVec3);
 
+    #[inline]
     fn from_f64(value: f64) -> Self {
         value
     }
+    #[inline]
     fn to_f64(self) -> f64 {
         self
     }
+    #[inline]
     fn sin(self) -> Self {
         libm::sin(self)
     }
+    #[inline]
     fn log2(self) -> Self {
         libm::log2(self)
     }
+    #[inline]
     fn exp2(self) -> Self {
         libm::exp2(self)
     }
@@ -273,6 +296,25 @@ pub fn log2_f32(x: f32) -> f32 {
 /// [`log2_f32`] without a branch; `FUSED` as in [`sin_in_domain`].
 #[inline(always)]
 pub(super) fn log2_everywhere<const FUSED: bool>(x: f32) -> f32 {
+    /// Brings a subnormal number into the normal range.
+    const LIFT: f32 = 16_777_216.0;
+    let subnormal = x < f32::MIN_POSITIVE;
+    let (lifted, exponent) = if subnormal { (x * LIFT, -24) } else { (x, 0) };
+    let log = log2_of_normal::<FUSED>(lifted, exponent);
+    let finite = x > 0.0 && x < f32::INFINITY;
+    let special = if x == 0.0 {
+        f32::NEG_INFINITY
+    } else if x > 0.0 {
+        x
+    } else {
+        f32::NAN
+    };
+    if finite { log } else { special }
+}
+
+/// Returns the logarithm of `x` 2^`exponent` to base two for a positive normal `x`; `FUSED` as in [`sin_in_domain`].
+#[inline(always)]
+pub(super) fn log2_of_normal<const FUSED: bool>(x: f32, exponent: i32) -> f32 {
     /// The smallest `f32` above sqrt(1/2).
     const SQRT_HALF_BITS: u32 = 0x3f35_04f4;
     const COEFFICIENTS: [f64; 9] = [
@@ -286,24 +328,12 @@ pub(super) fn log2_everywhere<const FUSED: bool>(x: f32) -> f32 {
         f64::from_bits(0x3fc8_7740_3989_7f75),
         f64::from_bits(0x3fc8_7d8e_bae9_9ae1),
     ];
-    /// Brings a subnormal number into the normal range.
-    const LIFT: f32 = 16_777_216.0;
-    let subnormal = x < f32::MIN_POSITIVE;
-    let bits = if subnormal { x * LIFT } else { x }.to_bits();
-    let exponent = (bits.wrapping_sub(SQRT_HALF_BITS) as i32) >> 23;
-    let m = f64::from(f32::from_bits(bits.wrapping_sub((exponent << 23) as u32)));
-    let exponent = if subnormal { exponent - 24 } else { exponent };
+    let bits = x.to_bits();
+    let shift = (bits.wrapping_sub(SQRT_HALF_BITS) as i32) >> 23;
+    let m = f64::from(f32::from_bits(bits.wrapping_sub((shift << 23) as u32)));
     let s = (m - 1.0) / (m + 1.0);
-    let log = multiply_add::<FUSED>(s, horner::<FUSED, 9>(s * s, &COEFFICIENTS), f64::from(exponent)) as f32;
-    let finite = x > 0.0 && x < f32::INFINITY;
-    let special = if x == 0.0 {
-        f32::NEG_INFINITY
-    } else if x > 0.0 {
-        x
-    } else {
-        f32::NAN
-    };
-    if finite { log } else { special }
+    let exponent = f64::from(shift + exponent);
+    multiply_add::<FUSED>(s, horner::<FUSED, 9>(s * s, &COEFFICIENTS), exponent) as f32
 }
 
 /// Returns two to the power of `x`, correctly rounded for every `x`; 0 below and infinity above the range of `f32`.

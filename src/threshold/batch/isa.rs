@@ -1,10 +1,10 @@
 //! Which vector instructions a loop is compiled for, chosen at run time.
 //!
-//! The loops are plain Rust over arrays; this file has them compiled once for each instruction set, so that the
-//! compiler turns them into its instructions. The generated dispatch checks the processor before it calls.
+//! The loops are plain Rust over arrays. This file has them compiled once for each instruction set, so that the
+//! compiler turns them into its instructions, and holds the only unsafe code of the crate: a function that is
+//! compiled for instructions beyond those of every machine may be called where the machine has them.
 
 use core::fmt;
-use multiversion::multiversion;
 
 /// A set of vector instructions. No result depends on it, only the time that it takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -50,27 +50,26 @@ impl Isa {
         match self {
             Self::Portable => true,
             #[cfg(target_arch = "x86_64")]
-            Self::Avx2 => is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma"),
+            Self::Avx2 => x86::has_avx2(),
             #[cfg(target_arch = "x86_64")]
-            Self::Avx512 => {
-                Self::Avx2.is_available()
-                    && is_x86_feature_detected!("avx512f")
-                    && is_x86_feature_detected!("avx512bw")
-                    && is_x86_feature_detected!("avx512cd")
-                    && is_x86_feature_detected!("avx512dq")
-                    && is_x86_feature_detected!("avx512vl")
-            }
+            Self::Avx512 => x86::has_avx512(),
             #[cfg(not(target_arch = "x86_64"))]
             Self::Avx2 | Self::Avx512 => false,
         }
     }
 
     /// Runs a job compiled for this set; for the portable one where the machine does not have it.
-    pub(crate) fn run<J: Job>(self, job: J) {
+    #[allow(unsafe_code)]
+    pub(crate) fn run(self, job: impl Job) {
         match self {
-            Self::Portable => job.run::<{ cfg!(target_arch = "aarch64") }>(),
-            Self::Avx2 => avx2(job),
-            Self::Avx512 => avx512(job),
+            // SAFETY: the guard has asked the machine for every feature that the function is compiled for.
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx2 if x86::has_avx2() => unsafe { x86::avx2(job) },
+            // SAFETY: as above.
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx512 if x86::has_avx512() => unsafe { x86::avx512(job) },
+            // AArch64 has a fused multiply-add in every machine.
+            _ => job.run::<{ cfg!(target_arch = "aarch64") }>(),
         }
     }
 }
@@ -85,19 +84,35 @@ impl fmt::Display for Isa {
 pub(crate) trait Job {
     /// Does the work. `FUSED`: the machine has a fused multiply-add.
     ///
-    /// Must be `#[inline(always)]`, and so must all that it calls in a loop; a closure is not and keeps the
-    /// instructions of the function that it was written in.
+    /// Must be `#[inline(always)]`, and so must all that it calls in a loop: what is not inlined keeps the instructions
+    /// of every machine, and that goes for closures, too.
     fn run<const FUSED: bool>(self);
 }
 
-#[multiversion(targets("x86_64+avx2+fma+bmi1+bmi2+lzcnt+movbe+f16c"))]
-fn avx2<J: Job>(job: J) {
-    job.run::<true>();
-}
+#[cfg(target_arch = "x86_64")]
+mod x86 {
+    use super::Job;
 
-#[multiversion(targets(
-    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+fma+bmi1+bmi2+lzcnt+movbe+f16c"
-))]
-fn avx512<J: Job>(job: J) {
-    job.run::<true>();
+    pub fn has_avx2() -> bool {
+        is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma")
+    }
+
+    pub fn has_avx512() -> bool {
+        has_avx2()
+            && is_x86_feature_detected!("avx512f")
+            && is_x86_feature_detected!("avx512bw")
+            && is_x86_feature_detected!("avx512cd")
+            && is_x86_feature_detected!("avx512dq")
+            && is_x86_feature_detected!("avx512vl")
+    }
+
+    #[target_feature(enable = "avx2,fma")]
+    pub fn avx2(job: impl Job) {
+        job.run::<true>();
+    }
+
+    #[target_feature(enable = "avx2,fma,avx512f,avx512bw,avx512cd,avx512dq,avx512vl")]
+    pub fn avx512(job: impl Job) {
+        job.run::<true>();
+    }
 }

@@ -8,6 +8,7 @@ use super::{Cell, Hash, open_lattice};
 use crate::threshold::real::Real;
 
 /// Returns MurmurHash3 (x86, 32 bits, seed 0) of four little-endian words.
+#[inline(always)]
 #[must_use]
 pub fn murmur3(words: [u32; 4]) -> u32 {
     let mut h = 0_u32;
@@ -22,6 +23,7 @@ pub fn murmur3(words: [u32; 4]) -> u32 {
 }
 
 /// Returns XXH32 of three little-endian words with a seed.
+#[inline(always)]
 #[must_use]
 pub fn xxhash32(words: [u32; 3], seed: u32) -> u32 {
     let mut h = seed.wrapping_add(374_761_393).wrapping_add(12);
@@ -34,6 +36,7 @@ pub fn xxhash32(words: [u32; 3], seed: u32) -> u32 {
 }
 
 /// Returns PCG3D of three words (Jarzynski & Olano 2020).
+#[inline(always)]
 #[must_use]
 pub fn pcg3d(words: [u32; 3]) -> [u32; 3] {
     let [mut x, mut y, mut z] = words.map(lcg);
@@ -49,6 +52,7 @@ pub fn pcg3d(words: [u32; 3]) -> [u32; 3] {
 }
 
 /// Returns PCG4D of four words (Jarzynski & Olano 2020).
+#[inline(always)]
 #[must_use]
 pub fn pcg4d(words: [u32; 4]) -> [u32; 4] {
     let [mut x, mut y, mut z, mut w] = words.map(lcg);
@@ -65,6 +69,7 @@ pub fn pcg4d(words: [u32; 4]) -> [u32; 4] {
 }
 
 /// Returns the one-dimensional PCG hash of a word (RXS-M-XS; Jarzynski & Olano 2020).
+#[inline(always)]
 #[must_use]
 pub fn pcg(word: u32) -> u32 {
     let state = word.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
@@ -72,6 +77,7 @@ pub fn pcg(word: u32) -> u32 {
     (mixed >> 22) ^ mixed
 }
 
+#[inline(always)]
 fn lcg(word: u32) -> u32 {
     word.wrapping_mul(1_664_525).wrapping_add(1_013_904_223)
 }
@@ -83,10 +89,17 @@ macro_rules! integer_hash {
         #[derive(Clone, Copy, Debug, Default)]
         pub struct $name;
 
+        impl $name {
+            /// Hashes the words of a cell to one.
+            #[inline(always)]
+            pub(in crate::threshold) fn word($words: [u32; 4]) -> u32 {
+                $value
+            }
+        }
+
         impl<R: Real> Hash<R> for $name {
             fn hash(&self, cell: &Cell<R>) -> R {
-                let $words = cell.words();
-                open_lattice($value)
+                open_lattice(Self::word(cell.words()))
             }
         }
     };

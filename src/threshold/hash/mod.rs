@@ -36,6 +36,7 @@ impl<R: Real> Cell<R> {
 /// Equal octaves give that octave in two's complement, so a cubic cell of the anisotropic grid is the cell of the
 /// isotropic one. Injective while every octave is in (-1024, 1024) and two of them differ by less than 512. Not in
 /// the paper.
+#[inline(always)]
 #[must_use]
 pub fn octave_word([x, y, z]: [i32; 3]) -> u32 {
     let word =

@@ -10,9 +10,15 @@ use crate::threshold::real::Real;
 /// `hash_2d(-x, -y)` is `1 - hash_2d(x, y)`: both are the formula's, not a defect of this crate. §5.1.
 #[must_use]
 pub fn hash_2d<R: Real>(x: R, y: R) -> R {
+    hash_2d_by(R::sin, x, y)
+}
+
+/// [`hash_2d`] with a sine of the caller's.
+#[inline(always)]
+pub(in crate::threshold) fn hash_2d_by<R: Real>(sin: impl Fn(R) -> R, x: R, y: R) -> R {
     let constant = R::from_f64;
-    let amplitude = constant(1.0e4) * (constant(17.0) * x + constant(0.1) * y).sin();
-    (amplitude * (constant(0.1) + (constant(13.0) * y + x).sin().abs())).fract()
+    let amplitude = constant(1.0e4) * sin(constant(17.0) * x + constant(0.1) * y);
+    (amplitude * (constant(0.1) + sin(constant(13.0) * y + x).abs())).fract()
 }
 
 /// Hashes three coordinates by hashing the hash of the first two with the third (`hash3D`, §5.1; chi_1 of §9).

@@ -130,14 +130,20 @@ pub(super) fn join<R: Real, H: Hash<R>>(
 }
 
 /// Tells the words of the choosing hash from those of cells.
-const CHOICE: u32 = 0x8000_0000;
+pub(in crate::threshold) const CHOICE: u32 = 0x8000_0000;
 
 /// The one-dimensional cell by which an axis chooses its octave: its own interval and octave, nothing of the others.
 fn interval<R: Real>(coarse: &Cell<R>, axis: usize, octave: i32) -> Cell<R> {
     let zero = R::from_f64(0.0);
     let index: [R; 3] = coarse.index.into();
     let alone = [index[axis], zero, zero];
-    Cell { index: alone.into(), octave: CHOICE ^ ((axis as u32) << 24) ^ (octave as u32 & 0xffff) }
+    Cell { index: alone.into(), octave: interval_word(axis, octave) }
+}
+
+/// The word of such an interval.
+#[inline(always)]
+pub(in crate::threshold) fn interval_word(axis: usize, octave: i32) -> u32 {
+    CHOICE ^ ((axis as u32) << 24) ^ (octave as u32 & 0xffff)
 }
 
 /// Mixes the corners of the box of octaves by trilinear weights, as normal quantiles of unit variance.
@@ -155,10 +161,11 @@ fn trilinear<R: Real>(fraction: [f64; 3], coarse: R, fine: R, corner: impl Fn([b
     }))
 }
 
+/// Keeps the quantile of a hash that can be 0 or 1 finite: half a step inside the open lattice.
+pub(in crate::threshold) const EDGE: f64 = 1.0 / 33_554_432.0;
+
 /// Mixes normal quantiles of uniform values by weights that add up to 1, and scales the sum to unit variance.
 fn normal_mixture<R: Real>(terms: impl IntoIterator<Item = (f64, R)>) -> f64 {
-    /// Keeps the quantile of a hash that can be 0 or 1 finite: half a step inside the open lattice.
-    const EDGE: f64 = 1.0 / 33_554_432.0;
     let (mut sum, mut variance) = (0.0, 0.0);
     for (weight, value) in terms {
         sum += weight * normal_quantile(value.to_f64().clamp(EDGE, 1.0 - EDGE));

@@ -30,7 +30,7 @@ const LEAST_SHARE_OF_COORDINATE: f64 = 1.0 / 2_097_152.0;
 const LEAST_SHARE_OF_LONGEST: f64 = 1.0 / 32.0;
 
 /// The longest side of a cell stays between these, where neither it nor its inverse nor an index overflows.
-fn side_bounds<R: Real>() -> [R; 2] {
+pub(in crate::threshold) fn side_bounds<R: Real>() -> [R; 2] {
     let exponent = R::MAX_EXPONENT * 100 / 127;
     [-exponent, exponent].map(|exponent| R::from_f64(libm::exp2(f64::from(exponent))))
 }
@@ -59,7 +59,7 @@ pub fn scales<R: Real>(
         // Zero times infinity cannot happen: neither factor is infinite.
         let hash_scale = Real::clamp(hash_scale, smallest, greatest);
         let side = max_derivative.map(|derivative| hash_scale * Real::min(derivative, greatest));
-        floored(side, footprint.position.into())
+        floored(side, footprint.position.into(), [smallest, greatest])
     } else {
         max_derivative.map(|derivative| hash_scale * derivative)
     };
@@ -99,6 +99,7 @@ pub fn cell<R: Real>(position: R::Vec3, octave: [i32; 3], repairs: Repairs) -> C
 
 /// Returns the weight of Listing 2, in [0, 1]: how far a point of the box of octaves lies from its first corner, as a
 /// share of the sum of its distances to both.
+#[inline(always)]
 #[must_use]
 pub fn corner_weight<R: Real>(fraction: [R; 3]) -> R {
     let to_floor = length(fraction);
@@ -106,10 +107,14 @@ pub fn corner_weight<R: Real>(fraction: [R; 3]) -> R {
     to_floor / (to_floor + to_ceil)
 }
 
-/// Raises sides that are too small for the coordinates or for the longest side, and bounds all.
-fn floored<R: Real>(side: [R; 3], position: [R; 3]) -> [R; 3] {
-    let largest = |v: [R; 3]| Real::max(Real::max(v[0].abs(), v[1].abs()), v[2].abs());
-    let [smallest, greatest] = side_bounds::<R>();
+/// Raises sides that are too small for the coordinates or for the longest side, and brings all into the bounds.
+#[inline(always)]
+pub(in crate::threshold) fn floored<R: Real>(
+    side: [R; 3],
+    position: [R; 3],
+    [smallest, greatest]: [R; 2],
+) -> [R; 3] {
+    let largest = |[x, y, z]: [R; 3]| Real::max(Real::max(x.abs(), y.abs()), z.abs());
     let coordinate = largest(position) * R::from_f64(LEAST_SHARE_OF_COORDINATE);
     let longest = Real::clamp(Real::max(largest(side), coordinate), smallest, greatest);
     let floor = Real::max(longest * R::from_f64(LEAST_SHARE_OF_LONGEST), Real::min(coordinate, greatest));

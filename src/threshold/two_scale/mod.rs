@@ -89,6 +89,7 @@ pub struct TwoScale<R: Real> {
 }
 
 /// Returns the Euclidean length, summed from left to right (GLSL's `length`).
+#[inline(always)]
 pub(crate) fn length<R: Real>([x, y, z]: [R; 3]) -> R {
     (x * x + y * y + z * z).sqrt()
 }

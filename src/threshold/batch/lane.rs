@@ -1,0 +1,215 @@
+//! What a lane of a vector can do beyond [`Real`]: the steps of a threshold without a branch.
+//!
+//! Each is exact where the scalar path would have gone the same way, and NaN (or not asked at all) elsewhere: a lane
+//! that ends as NaN is evaluated again by the scalar path.
+
+use crate::threshold::real::{Real, log2_of_normal, sin_in_domain};
+
+/// The branch-free steps.
+pub trait Kernel: Real {
+    /// Cells with coordinates up to this number have words that [`Kernel::word`] gives.
+    const LARGEST_WORD: Self;
+    /// Cells with coordinates up to this number have sines that [`Kernel::sine`] gives: 17.1 of them are in its domain.
+    const LARGEST_SINE: Self;
+    /// Scales between these have neither an octave nor a cell that overflows.
+    const SCALES: [Self; 2];
+    /// Squares of lengths between these are neither rounded to zero nor infinite.
+    const SQUARES: [Self; 2];
+    /// Whether there are faster and less exact ways.
+    const HAS_TIERS: bool;
+
+    /// Returns two to the power of `octave`, exactly, for an octave of a normal number.
+    fn power(octave: i32) -> Self;
+    /// Returns an integral value up to [`Kernel::LARGEST_WORD`] in two's complement.
+    fn word(self) -> u32;
+    /// [`open_lattice`](crate::threshold::hash::open_lattice).
+    fn lattice(word: u32) -> Self;
+    /// Returns the octave of a scale and the place in it, in [0, 1], by the logarithm.
+    fn octave<const FUSED: bool>(scale: Self) -> (i32, Self);
+    /// Returns the sine of an angle in radians as the scalar path does.
+    fn sine<const FUSED: bool>(self) -> Self;
+
+    /// Returns the octave by the exponent.
+    #[inline(always)]
+    fn octave_by_bits(scale: Self) -> (i32, Self) {
+        Self::octave::<false>(scale)
+    }
+    /// Returns the sine of [`Tier::Fast`](super::Tier::Fast).
+    #[inline(always)]
+    fn sine_fast(self) -> Self {
+        self.sine::<false>()
+    }
+    /// Returns the sine of [`Tier::TwoUlp`](super::Tier::TwoUlp).
+    #[inline(always)]
+    fn sine_two_ulp(self) -> Self {
+        self.sine::<false>()
+    }
+}
+
+impl Kernel for f32 {
+    const LARGEST_WORD: Self = 4_194_303.0;
+    const LARGEST_SINE: Self = 960_000.0;
+    // 2^-100 and 2^100.
+    const SCALES: [Self; 2] = [f32::from_bits(27 << 23), f32::from_bits(227 << 23)];
+    // 2^-98 and 2^119.
+    const SQUARES: [Self; 2] = [f32::from_bits(29 << 23), f32::from_bits(246 << 23)];
+    const HAS_TIERS: bool = true;
+
+    #[inline(always)]
+    fn power(octave: i32) -> Self {
+        f32::from_bits((octave.wrapping_add(127) << 23) as u32)
+    }
+    #[inline(always)]
+    fn word(self) -> u32 {
+        /// Adding 1.5 * 2^23 brings the integer into the low bits.
+        const TO_INTEGER: f32 = 12_582_912.0;
+        (self + TO_INTEGER).to_bits().wrapping_sub(TO_INTEGER.to_bits())
+    }
+    #[inline(always)]
+    fn lattice(word: u32) -> Self {
+        (2 * (word >> 9) + 1) as i32 as f32 * (1.0 / 16_777_216.0)
+    }
+    #[inline(always)]
+    fn octave<const FUSED: bool>(scale: Self) -> (i32, Self) {
+        let log = log2_of_normal::<FUSED>(scale, 0);
+        let floor = log.floor();
+        (floor.word() as i32, log - floor)
+    }
+    #[inline(always)]
+    fn sine<const FUSED: bool>(self) -> Self {
+        sin_in_domain::<FUSED>(self)
+    }
+    #[inline(always)]
+    fn octave_by_bits(scale: Self) -> (i32, Self) {
+        octave_by_bits(scale)
+    }
+    #[inline(always)]
+    fn sine_fast(self) -> Self {
+        sin_by_half_turns(self)
+    }
+    #[inline(always)]
+    fn sine_two_ulp(self) -> Self {
+        sin_by_three_parts(self)
+    }
+}
+
+/// Adding and subtracting 1.5 * 2^23 rounds to the nearest integer, whose parity is then the lowest bit of the sum.
+const TO_NEAREST: f32 = 12_582_912.0;
+
+/// Returns the sine with an absolute error below 2^-22 for |x| up to 2^20: the argument is counted in half-turns.
+///
+/// 1/pi has two parts, and the first product enters the difference to the nearest integer unrounded. An odd polynomial
+/// of degree 9 follows (2^-28).
+#[inline(always)]
+fn sin_by_half_turns(x: f32) -> f32 {
+    const PER_HALF_TURN: [f32; 2] = [f32::from_bits(0x3ea2_f983), f32::from_bits(0x325c_9c88)];
+    const COEFFICIENTS: [f32; 5] = [
+        f32::from_bits(0x4049_0fda),
+        f32::from_bits(0xc0a5_5ddb),
+        f32::from_bits(0x4023_33b5),
+        f32::from_bits(0xbf19_195d),
+        f32::from_bits(0x3d9e_2394),
+    ];
+    let shifted = x.mul_add(PER_HALF_TURN[0], TO_NEAREST);
+    let nearest = shifted - TO_NEAREST;
+    let rest = x.mul_add(PER_HALF_TURN[1], x.mul_add(PER_HALF_TURN[0], -nearest));
+    let sine = rest * horner(rest * rest, &COEFFICIENTS);
+    f32::from_bits(sine.to_bits() ^ (shifted.to_bits() << 31))
+}
+
+/// Returns the sine within 2.1 units in the last place for |x| up to 2^20: multiples of pi, in three parts, are taken off.
+///
+/// An odd polynomial of degree 9 follows, with a relative error of 2^-27.
+#[inline(always)]
+fn sin_by_three_parts(x: f32) -> f32 {
+    const PER_HALF_TURN: f32 = f32::from_bits(0x3ea2_f983);
+    const PI: [f32; 3] =
+        [f32::from_bits(0x4049_0fdb), f32::from_bits(0xb3bb_bd2e), f32::from_bits(0xa777_2ced)];
+    const COEFFICIENTS: [f32; 4] = [
+        f32::from_bits(0xbe2a_aaa6),
+        f32::from_bits(0x3c08_8769),
+        f32::from_bits(0xb94f_b7ee),
+        f32::from_bits(0x362e_ddf2),
+    ];
+    let shifted = x.mul_add(PER_HALF_TURN, TO_NEAREST);
+    let nearest = shifted - TO_NEAREST;
+    let rest = (-nearest).mul_add(PI[2], (-nearest).mul_add(PI[1], (-nearest).mul_add(PI[0], x)));
+    let squared = rest * rest;
+    let sine = (rest * squared).mul_add(horner(squared, &COEFFICIENTS), rest);
+    f32::from_bits(sine.to_bits() ^ (shifted.to_bits() << 31))
+}
+
+/// Reads the octave off the exponent; the place in it has an absolute error below 2^-23.
+#[inline(always)]
+fn octave_by_bits(scale: f32) -> (i32, f32) {
+    const COEFFICIENTS: [f32; 8] = [
+        f32::from_bits(0x3fb8_aa10),
+        f32::from_bits(0xbf38_9e53),
+        f32::from_bits(0x3ef5_1608),
+        f32::from_bits(0xbeb1_d174),
+        f32::from_bits(0x3e77_ab6b),
+        f32::from_bits(0xbe0c_d26c),
+        f32::from_bits(0x3d55_3be1),
+        f32::from_bits(0xbc18_8587),
+    ];
+    const BELOW_ONE: f32 = 1.0 - 1.0 / 16_777_216.0;
+    let bits = scale.to_bits();
+    let above_one = f32::from_bits((bits & 0x007f_ffff) | 0x3f80_0000) - 1.0;
+    let fraction = above_one * horner(above_one, &COEFFICIENTS);
+    ((bits >> 23) as i32 - 127, if fraction < BELOW_ONE { fraction } else { BELOW_ONE })
+}
+
+/// Evaluates `c0 + x (c1 + x (c2 + ...))`, each step rounded once.
+#[inline(always)]
+fn horner<const N: usize>(x: f32, coefficients: &[f32; N]) -> f32 {
+    let mut sum = coefficients[N - 1];
+    for &coefficient in coefficients[..N - 1].iter().rev() {
+        sum = sum.mul_add(x, coefficient);
+    }
+    sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Whole and broken arguments up to 2^20, both signs.
+    fn arguments() -> impl Iterator<Item = f32> {
+        (0..1 << 20).map(|i| i as f32).chain((0..200_000).map(|i| 0.37 * i as f32)).flat_map(|x| [x, -x])
+    }
+
+    /// Returns the greatest distance to the exact sine, in units of what is asked of `unit`.
+    fn worst(sine: impl Fn(f32) -> f32, unit: impl Fn(f64) -> f64) -> f64 {
+        arguments()
+            .map(|x| {
+                let exact = libm::sin(f64::from(x));
+                (f64::from(sine(x)) - exact).abs() / unit(exact)
+            })
+            .fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn the_sine_by_half_turns_has_a_small_absolute_error() {
+        let error = worst(sin_by_half_turns, |_| 1.0);
+        assert!(error < libm::exp2(-22.0), "2^{}", libm::log2(error));
+    }
+
+    #[test]
+    fn the_sine_by_three_parts_has_a_small_relative_error() {
+        let last_place = |exact: f64| libm::exp2(libm::floor(libm::log2(exact.abs().max(1e-30))) - 23.0);
+        let error = worst(sin_by_three_parts, last_place);
+        assert!(error < 2.1, "{error} units");
+        assert!(worst(sin_by_half_turns, last_place) > 2.1);
+    }
+
+    #[test]
+    fn the_octave_by_bits_is_that_of_the_logarithm() {
+        for i in 0..100_000 {
+            let scale = libm::exp2(f64::from(i) * 2e-3 - 99.0) as f32;
+            let ((octave, fraction), (expected, exact)) =
+                (octave_by_bits(scale), <f32 as Kernel>::octave::<false>(scale));
+            let off = f64::from(octave - expected) + f64::from(fraction) - f64::from(exact);
+            assert!((0.0..1.0).contains(&fraction) && off.abs() < 4e-6, "{scale:e}: {off:e}");
+        }
+    }
+}
