@@ -147,7 +147,9 @@ mod tests {
     use glam::DVec3;
 
     fn subject(variant: Variant, join: Join) -> Subject<'static> {
-        Subject { join, ..Subject::new("", Precision::F64, variant, |_| 0.5_f64) }
+        let mut subject = Subject::new("", Precision::F64, variant, |_| 0.5_f64);
+        subject.join = join;
+        subject
     }
 
     fn view(log_scale: f64) -> Nominal {

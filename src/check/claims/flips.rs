@@ -250,7 +250,7 @@ fn trial(tallies: &[Tally], points: f64) -> Trial {
         sigma = sigma.max(squares.sqrt() / points);
         shares.push(ComparedShare {
             series: "views of one point".into(),
-            x: alpha,
+            x: *alpha,
             measured: *flips as f64 / points,
             predicted: expected / points,
             sigma: squares.sqrt() / points,
