@@ -311,8 +311,9 @@ pub const FLIP_SAMPLES: usize = 1 << 15;
 /// with an interval in common are not independent; an `f32` position keeps a hundredth of a cell.
 pub const WIDE: f64 = 16.0;
 
-/// The same where only the view of a point changes, and not the point: half a million intervals.
-pub const FINE_VIEWS: f64 = 4096.0;
+/// How much smaller the cells are than those of [`FINEST_VIEW`] where only the view of a point changes: again 10^5
+/// intervals. Much smaller ones would be so for the coordinates that the robust threshold raises them.
+pub const FINE_VIEWS: f64 = 256.0;
 
 /// Points whose flips are counted over a whole motion: a flip more in 25 points and octaves shows; leaving out Eq. 2
 /// takes away one in 12 at an alpha of 0.1.
