@@ -289,13 +289,6 @@ mod tests {
     #[test]
     fn the_table_of_the_slides_is_confirmed_but_for_its_stars() {
         for entry in table(&Draw::default()) {
-            println!(
-                "{:18} {:20} {:?} {:.4}",
-                entry.coordinates.name(),
-                entry.motion.name(),
-                entry.stated,
-                entry.kept
-            );
             assert!(entry.points > 1000, "{entry:?}");
             assert_eq!(entry.is_confirmed(), entry.stated != Stated::Generous, "{entry:?}");
         }

@@ -44,7 +44,7 @@ pub const ZOOM: Claim = Claim {
                 join has it: 0.26, 0.45 and 0.5 times at an alpha of 0.1, 0.3 and 0.5 in the paper",
     expected: Verdict::Consistent,
     promise: Some(Promise::Root(0.2)),
-    run: |subject, draw| sweep(subject, draw, ZOOM.id, |rng| views(subject, rng, |t, at| zoomed(t, at))),
+    run: |subject, draw| sweep(subject, draw, ZOOM.id, |rng| views(subject, rng, zoomed)),
 };
 
 /// Flips while the object turns about the line of sight.

@@ -318,7 +318,7 @@ mod tests {
     #[test]
     fn equal_weights_leave_the_variance_of_one_stratum() {
         for (order, alpha) in [([0, 2, 1, 3], 0.3), ([3, 2, 1, 0], 0.5), ([0, 1, 2, 3], 0.9)] {
-            let part: f64 = 4.0 * alpha - (4.0 * alpha as f64).floor();
+            let part = 4.0 * alpha - f64::floor(4.0 * alpha);
             let found = variance(&order, &[0.25; 4], alpha);
             assert!((found - part * (1.0 - part) / 16.0).abs() < 1e-12, "{order:?} {alpha}: {found}");
         }
