@@ -4,6 +4,7 @@
 
 pub mod claims;
 pub mod compare;
+pub mod coordinates;
 pub mod diagnosis;
 pub mod draw;
 pub mod evidence;
@@ -12,6 +13,7 @@ pub mod findings;
 pub mod kinship;
 pub mod outcome;
 pub mod parity;
+pub mod rescaled;
 pub mod results;
 pub mod sample;
 #[cfg(feature = "shader")]

@@ -39,7 +39,13 @@ pub fn sighting<'a>(scene: &'a Scene, rng: &mut Xoshiro256PlusPlus) -> Sighting<
     }
 }
 
-impl Sighting<'_> {
+impl<'a> Sighting<'a> {
+    /// The surface that is seen.
+    #[must_use]
+    pub fn surface(&self) -> &'a Rectangle {
+        self.surface
+    }
+
     /// The same place of the world, `by` further in the object's own coordinates; rounded to a precision.
     #[must_use]
     pub fn placed(self, by: DVec3, precision: Precision) -> Self {

@@ -59,19 +59,26 @@ pub fn copula_correlation(normal: f64) -> f64 {
 /// Returns the probability that the uniform images of two normal values of correlation `normal` are both at most
 /// `alpha`, in [0, 1].
 ///
-/// `normal` in [0, 1], `alpha` in (0, 1). Plackett's integral over the correlation, by Simpson's rule; within 1e-9.
+/// `normal` in [0, 1], `alpha` in (0, 1). Owen's T by eight points of Gauss and Legendre; within 1e-9.
 #[must_use]
 pub fn copula_joint_visibility(normal: f64, alpha: f64) -> f64 {
-    const STEPS: u32 = 128;
+    const POINTS: [(f64, f64); 4] = [
+        (0.183_434_642_495_649_8, 0.362_683_783_378_362),
+        (0.525_532_409_916_329, 0.313_706_645_877_887_3),
+        (0.796_666_477_413_626_7, 0.222_381_034_453_374_5),
+        (0.960_289_856_497_536_2, 0.101_228_536_290_376_3),
+    ];
     let q = normal_quantile(alpha);
-    let end = libm::asin(normal);
-    let integrand = |step: u32| {
-        let angle = end * f64::from(step) / f64::from(STEPS);
-        libm::exp(-q * q / (1.0 + libm::sin(angle)))
+    let end = ((1.0 - normal) / (1.0 + normal)).sqrt();
+    let integrand = |part: f64| {
+        let square = 1.0 + part * part * end * end;
+        libm::exp(-0.5 * q * q * square) / square
     };
-    let inner: f64 = (1..STEPS).map(|i| if i % 2 == 1 { 4.0 } else { 2.0 } * integrand(i)).sum();
-    let integral = (integrand(0) + inner + integrand(STEPS)) * end / (3.0 * f64::from(STEPS));
-    alpha * alpha + integral / (2.0 * PI)
+    let sum: f64 = POINTS
+        .iter()
+        .map(|&(x, weight)| weight * (integrand(0.5 - 0.5 * x) + integrand(0.5 + 0.5 * x)))
+        .sum();
+    alpha - end * sum / (2.0 * PI)
 }
 
 #[cfg(test)]

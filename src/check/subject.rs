@@ -7,8 +7,10 @@ use crate::threshold::hashed::HashedAlpha;
 use crate::threshold::real::Real;
 use crate::threshold::robust::scales::{self, Scales};
 use crate::threshold::robust::{Join, Repair, Repairs, Robust};
+use crate::threshold::stratify::{alternating, stratified};
 use crate::threshold::two_scale::Variant;
 use core::fmt;
+use core::num::NonZeroU32;
 use glam::DVec3;
 use rayon::prelude::*;
 use std::sync::OnceLock;
@@ -240,6 +242,33 @@ impl<'a> Subject<'a> {
             interpolated,
             ..Self::new(name, precision, robust.variant, move |footprint| Some(evaluate(footprint)?.0))
         }
+    }
+
+    /// Spreads the thresholds over `n` frames: frame i has stratum i of the alternating order, each of width 1 / n. Eq. 6
+    /// with the clamp after it, §7.2.3.
+    ///
+    /// The value before Eq. 2 stays that of the first frame.
+    #[must_use]
+    pub fn stratified(self, n: NonZeroU32) -> Self {
+        let precision = self.precision;
+        let spread = move |chi: f64, frame: u32| match precision {
+            Precision::F32 => stratified(chi as f32, alternating(frame, n), n).to_f64(),
+            Precision::F64 => stratified(chi, alternating(frame, n), n),
+        };
+        let first = |fragment: &Fragment| Fragment { frame: 0, ..*fragment };
+        let threshold = match self.threshold {
+            Evaluation::OneByOne(threshold) => Evaluation::OneByOne(Box::new(move |fragment| {
+                threshold(&first(fragment)).map(|chi| spread(chi, fragment.frame))
+            })),
+            Evaluation::AllAtOnce(thresholds) => Evaluation::AllAtOnce(Box::new(move |fragments| {
+                let mut values = thresholds(&fragments.iter().map(first).collect::<Vec<_>>())?;
+                for (value, fragment) in values.iter_mut().zip(fragments) {
+                    *value = spread(*value, fragment.frame);
+                }
+                Ok(values)
+            })),
+        };
+        Self { name: format!("{}, {n} frames", self.name), frames: n.get(), threshold, ..self }
     }
 
     /// The paper's Listings 1 and 2 to the letter, in both precisions.

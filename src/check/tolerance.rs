@@ -294,3 +294,74 @@ pub const LAGS: i64 = 4;
 
 /// Rings of frequencies from 0 to half a cycle for each claimed size: the first has eleven ordinates an image.
 pub const RINGS: usize = 6;
+
+// Motion: flips, frames, coordinates.
+
+/// Alphas at which flips are counted: a leaf's edge, its inside, the middle of the range.
+pub const ALPHAS: [f64; 3] = [0.1, 0.3, 0.5];
+
+/// Shifts in pixels after which flips are counted: one at which half of the changes are soft, one beyond the fine cell.
+pub const FLIP_SHIFTS: [f64; 2] = [0.125, 0.6];
+
+/// Samples at each shift, screen axis and scene: a soft change that is counted as a hard one doubles a share of 0.1.
+pub const FLIP_SAMPLES: usize = 1 << 15;
+
+/// How much further than [`PLACEMENT`] an object is placed where flips are counted, or how much smaller its cells are:
+/// one axis then has 10^5 intervals. The dithered join asks a hash of one interval which octave it takes, so that points
+/// with an interval in common are not independent; an `f32` position keeps a hundredth of a cell.
+pub const WIDE: f64 = 16.0;
+
+/// How much smaller the cells are than those of [`FINEST_VIEW`] where only the view of a point changes: again 10^5
+/// intervals. Much smaller ones would be so for the coordinates that the robust threshold raises them.
+pub const FINE_VIEWS: f64 = 256.0;
+
+/// Points whose flips are counted over a whole motion: a flip more in 25 points and octaves shows; leaving out Eq. 2
+/// takes away one in 12 at an alpha of 0.1.
+pub const FLIP_POINTS: usize = 1 << 14;
+
+/// Views of a point less one: few passages of alpha fall between two of them in twos. The prediction is about the views
+/// themselves and does not count those either.
+pub const FLIP_STEPS: usize = 16;
+
+/// Frames over which a skinned surface bends: 0.32 radians of its bone, half an octave and more where it bends most.
+pub const SKINNED_FRAMES: f64 = 16.0;
+
+/// Pixels by which a frame of motion moves the image: three cells or more at every lerp factor.
+pub const MOTION_PIXELS: f64 = 3.0;
+
+/// Radians by which a frame of motion turns an object or rolls a camera.
+pub const TURN_A_FRAME: f64 = 0.02;
+
+/// Radians per object unit of the wave that deforms an object and weighs its bones: a quarter of a period in a unit.
+pub const WAVE: [f64; 3] = [1.3, 0.9, -0.7];
+
+/// Points that are followed for one cell of the table of coordinates: a share is known to a hundredth.
+pub const TABLE_POINTS: usize = 1 << 11;
+
+/// Points of a claim that allows not one change.
+pub const EXACT_POINTS: usize = 1 << 12;
+
+/// Frames at which a static threshold is asked: neighbours, powers of two, the last one.
+pub const FRAMES: [u32; 6] = [0, 1, 2, 7, 1024, u32::MAX];
+
+/// What roundings of `f32` leave between two thresholds of one point in different strata: the sum, the part after the
+/// point and the clamp at 2^-24.
+pub const STRATUM_ROUNDING: f64 = 1.0 / 4_194_304.0;
+
+/// Pixels by which the image moves from frame to frame where the noise of one pixel is followed.
+pub const DRIFT: f64 = 0.15;
+
+/// Frames between two thresholds of one pixel: within the fine cell, across it, and beyond the coarse one.
+pub const FRAME_LAGS: [u32; 4] = [1, 2, 5, 16];
+
+/// Points at each lag and of each exponential average: a correlation of 0.05 shows.
+pub const FRAME_POINTS: usize = 1 << 15;
+
+/// Weight of the newest frame in an exponential average: that of common temporal antialiasing.
+pub const NEWEST: f64 = 0.1;
+
+/// Points that are evaluated one by one.
+pub const ALONE: usize = 64;
+
+/// Fragments of a second pass that are evaluated together: neither a power of two nor a row of the first.
+pub const PIECE: usize = 37;

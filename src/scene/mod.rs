@@ -5,6 +5,7 @@
 pub mod camera;
 pub mod fragment;
 pub mod gallery;
+pub mod posed;
 pub mod raster;
 pub mod rectangle;
 

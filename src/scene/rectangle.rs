@@ -54,15 +54,13 @@ impl Rectangle {
     pub fn fragment(&self, camera: &Camera, pixel: DVec2) -> Option<Fragment> {
         let footprint = self.footprint(camera, pixel)?;
         let world = footprint.position;
-        // Texels from one pixel to the next: a texture coordinate is linear on the surface.
-        let texels = |along: DVec3| ((self.texcoord(world + along) - self.texcoord(world)) * TEXELS).length();
         Some(Fragment {
             footprint,
             world,
             eye: camera.to_eye(world),
             pixel,
             texcoord: self.texcoord(world),
-            lod: libm::log2(texels(footprint.dpdx).max(texels(footprint.dpdy))),
+            lod: self.lod(&footprint),
             frame: 0,
             layer: 0,
         })
@@ -75,6 +73,15 @@ impl Rectangle {
         let from_centre = point - self.centre;
         let along = |half: DVec3| 0.5 + 0.5 * from_centre.dot(half) / half.length_squared();
         dvec2(along(self.half_u), along(self.half_v))
+    }
+
+    /// Returns the level of detail of the texture at a footprint, log2 of texels per pixel along the longer axis.
+    #[must_use]
+    pub fn lod(&self, footprint: &Footprint<f64>) -> f64 {
+        // A texture coordinate is linear on the surface.
+        let texels =
+            |along: DVec3| (self.texcoord(self.centre + along) - DVec2::splat(0.5)).length() * TEXELS;
+        libm::log2(texels(footprint.dpdx).max(texels(footprint.dpdy)))
     }
 
     /// Returns the footprint of a pixel as a GPU finds it: `f32` positions, and their differences within the aligned

@@ -37,10 +37,7 @@ pub const ZOOM: Claim = Claim {
             length: ZOOM_OCTAVES,
             monotone: true,
             effect_name: "pops per point and octave",
-            derivatives: |[u, v], at| {
-                let scale = libm::exp2(-ZOOM_OCTAVES * at);
-                [u * scale, v * scale]
-            },
+            derivatives: |tangents, at| zoomed(tangents, ZOOM_OCTAVES * at),
         };
         sweep(subject, draw, ZOOM.id, &zoom)
     },
@@ -59,11 +56,7 @@ pub const ROTATION: Claim = Claim {
             length: 1.0,
             monotone: false,
             effect_name: "pops per point and quarter turn",
-            derivatives: |[u, v], at| {
-                // A surface at 60 degrees to the screen, so that turning it changes the longer of the derivatives.
-                let turn = DVec2::new(libm::cos(at * FRAC_PI_2), libm::sin(at * FRAC_PI_2));
-                [u * turn.x + 2.0 * v * turn.y, 2.0 * v * turn.x - u * turn.y]
-            },
+            derivatives: |tangents, at| turned(tangents, FRAC_PI_2 * at),
         };
         sweep(subject, draw, ROTATION.id, &quarter_turn)
     },
@@ -82,7 +75,7 @@ pub const TILT: Claim = Claim {
             length: 1.0,
             monotone: true,
             effect_name: "pops per point and tilt from 0 to 85 degrees",
-            derivatives: |[u, v], at| [u, v * libm::exp2(TILT_OCTAVES * at)],
+            derivatives: |tangents, at| tilted(tangents, TILT_OCTAVES * at),
         };
         sweep(subject, draw, TILT.id, &tilt)
     },
@@ -97,6 +90,25 @@ pub const OCTAVE_BOUNDARY: Claim = Claim {
     promise: Some(Promise::Linear(2.0e-3)),
     run: octave_boundary,
 };
+
+/// The derivatives after the camera has come closer by so many octaves, from two tangents of equal length at right
+/// angles.
+pub(super) fn zoomed([u, v]: [DVec3; 2], octaves: f64) -> [DVec3; 2] {
+    let scale = libm::exp2(-octaves);
+    [u * scale, v * scale]
+}
+
+/// The derivatives after a turn about the line of sight, by an angle in radians, of a surface at 60 degrees to the
+/// screen, so that turning it changes the longer of the derivatives.
+pub(super) fn turned([u, v]: [DVec3; 2], angle: f64) -> [DVec3; 2] {
+    let turn = DVec2::new(libm::cos(angle), libm::sin(angle));
+    [u * turn.x + 2.0 * v * turn.y, 2.0 * v * turn.x - u * turn.y]
+}
+
+/// The derivatives after a tilt that stretches the second by so many octaves.
+pub(super) fn tilted([u, v]: [DVec3; 2], octaves: f64) -> [DVec3; 2] {
+    [u, v * libm::exp2(octaves)]
+}
 
 /// A change of the view of a point.
 struct Motion {
@@ -143,7 +155,7 @@ fn sweep(subject: &Subject<'_>, draw: &Draw, claim: &str, motion: &Motion) -> At
 }
 
 /// Draws two tangents of one length, at right angles, in any direction.
-fn tangents(rng: &mut Xoshiro256PlusPlus) -> [DVec3; 2] {
+pub(super) fn tangents(rng: &mut Xoshiro256PlusPlus) -> [DVec3; 2] {
     let length = libm::exp2(-FINEST_VIEW - seed::uniform01(rng));
     let mut direction = || loop {
         let v = dvec3(seed::uniform01(rng), seed::uniform01(rng), seed::uniform01(rng)) * 2.0 - 1.0;
@@ -245,7 +257,7 @@ fn distance(before: &Nominal, after: &Nominal) -> [f64; 3] {
 }
 
 /// The most by which a continuous join changes between two scales.
-fn allowed(subject: &Subject<'_>, before: &Nominal, after: &Nominal) -> f64 {
+pub(in crate::check) fn allowed(subject: &Subject<'_>, before: &Nominal, after: &Nominal) -> f64 {
     let distance = distance(before, after);
     let slope = match (subject.join, subject.variant) {
         (Join::Copula, Variant::Anisotropic) => COPULA_SLOPE_OF_AN_AXIS * distance.iter().sum::<f64>(),

@@ -2,12 +2,12 @@
 
 use super::uniform::reject_outsiders;
 use super::{Attempt, Claim, Conclusion, Promise, Trial};
-use crate::check::sample::{UsedCells, placement, sighting};
+use crate::check::sample::{UsedCells, general_scenes, placed, placement, sighting};
 use crate::check::tolerance::{
     DRAWS_A_SAMPLE, LAYER_PAIRS, LAYER_SAMPLES, LEAST_LAYER_DISTANCE, PAIR_BINS, PLACEMENT,
 };
 use crate::check::{Draw, Evidence, Subject, Verdict};
-use crate::scene::{Fragment, Scene};
+use crate::scene::{Fragment, Rectangle, Scene};
 use crate::stats::chi_square::{self, ChiSquare};
 use crate::stats::correlation;
 use crate::stats::seed::uniform01;
@@ -24,16 +24,43 @@ pub const PARALLEL: Claim = Claim {
     run: parallel,
 };
 
+/// Pairs of thresholds at one pixel on two surfaces that cross the line of sight at different angles.
+pub const QUARTER: Claim = Claim {
+    id: "layers.quarter",
+    anchor: "§5.3 (layers at one pixel), §4 (expected visibility is alpha)",
+    statement: "thresholds at one pixel on two surfaces in general position are uniform and independent, so that two \
+                half-transparent layers are both kept at a quarter of the pixels",
+    expected: Verdict::Consistent,
+    promise: Some(Promise::Linear(0.015)),
+    run: quarter,
+};
+
 fn parallel(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     let mut rng = draw.rng(PARALLEL.id);
     let Some(wall) = Scene::all().into_iter().find(|scene| scene.name == "wall") else {
         return Ok(Trial::without(Conclusion::Inconclusive, "there is no scene of that name"));
     };
+    both_kept(
+        subject,
+        (0..LAYER_PAIRS).map(|_| samples(subject, &wall, draw.samples(LAYER_SAMPLES), &mut rng)),
+    )
+}
+
+fn quarter(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
+    let mut rng = draw.rng(QUARTER.id);
+    let scenes = general_scenes();
+    let n = draw.samples(LAYER_SAMPLES);
+    let pairs = (0..LAYER_PAIRS)
+        .map(|pair| behind(subject, &scenes[pair % scenes.len()], pair as u32 + 1, n, &mut rng));
+    both_kept(subject, pairs)
+}
+
+/// Tests thresholds in twos, group by group, for a law of pairs that is uniform over the square.
+fn both_kept(subject: &Subject<'_>, groups: impl Iterator<Item = Vec<Fragment>>) -> Attempt<Trial> {
     let mut pooled = vec![0; PAIR_BINS * PAIR_BINS];
     let (mut squares, mut visible): (Vec<ChiSquare>, Vec<ChiSquare>) = (Vec::new(), Vec::new());
     let mut worst = 0.0_f64;
-    for _ in 0..LAYER_PAIRS {
-        let samples = samples(subject, &wall, draw.samples(LAYER_SAMPLES), &mut rng);
+    for samples in groups {
         let values = subject.thresholds(&samples);
         reject_outsiders(&samples, &values)?;
         let pairs = || values.chunks_exact(2).map(|pair| (pair[0], pair[1]));
@@ -96,6 +123,44 @@ fn samples(subject: &Subject<'_>, wall: &Scene, n: usize, rng: &mut Xoshiro256Pl
             fragment.layer = u32::from(other > z);
             fragment
         });
+        if used.claim(subject, &pair) {
+            samples.extend(pair);
+        }
+    }
+    samples
+}
+
+/// Fragments in twos, at the same pixel on the surface of a scene and on another far behind it, with that one's index of
+/// the layer; no two pairs touch the same cell.
+fn behind(
+    subject: &Subject<'_>,
+    scene: &Scene,
+    layer: u32,
+    n: usize,
+    rng: &mut Xoshiro256PlusPlus,
+) -> Vec<Fragment> {
+    let (camera, place) = (&scene.camera, placement(rng));
+    // Up to 60 degrees away from facing the camera.
+    let mut between = |low: f64, high: f64| low + (high - low) * uniform01(rng);
+    let tilt = camera.direction_dx.normalize() * between(-1.2, 1.2)
+        + camera.direction_dy.normalize() * between(-1.2, 1.2);
+    let side = (tilt - camera.forward).any_orthonormal_vector() * PLACEMENT * 4.0;
+    let further = between(2.0, 4.0) * LEAST_LAYER_DISTANCE;
+    let other = Rectangle {
+        centre: scene.surfaces[0].centre + camera.forward * further,
+        half_u: side,
+        half_v: (tilt - camera.forward).normalize().cross(side),
+    };
+    let mut used = UsedCells::default();
+    let mut samples = Vec::with_capacity(2 * n);
+    for _ in 0..n * DRAWS_A_SAMPLE {
+        if samples.len() == 2 * n {
+            break;
+        }
+        let near = sighting(scene, rng).fragment;
+        let far = other.fragment(camera, near.pixel).map(|far| Fragment { layer, ..far });
+        let Some(far) = far.filter(|far| far.eye.z >= near.eye.z + LEAST_LAYER_DISTANCE) else { continue };
+        let pair = [near, far].map(|fragment| placed(&fragment, place, subject.precision));
         if used.claim(subject, &pair) {
             samples.extend(pair);
         }

@@ -3,9 +3,13 @@
 pub mod atoms;
 pub mod cells;
 pub mod continuity;
+pub mod coordinates;
 pub mod coverage;
 pub mod degenerate;
+pub mod determinism;
 pub mod exact;
+pub mod flips;
+pub mod frames;
 pub mod hash;
 pub mod independence;
 pub mod layers;
@@ -91,6 +95,7 @@ pub const ALL: &[Claim] = &[
     hash::VALUES,
     hash::RESONANCE,
     layers::PARALLEL,
+    layers::QUARTER,
     stability::TRANSLATE,
     stability::TRANSLATE_ALIGNED,
     noise_scale::FRONTAL,
@@ -99,6 +104,18 @@ pub const ALL: &[Claim] = &[
     spectrum::ORDINATES,
     spectrum::RADIAL,
     spectrum::ANISOTROPY,
+    flips::TRANSLATION,
+    flips::ZOOM,
+    flips::ROTATION,
+    flips::TILT,
+    flips::SKINNING,
+    coordinates::OBJECT,
+    determinism::TWO_PASSES,
+    determinism::DERIVATIVES,
+    frames::STATIC,
+    frames::STRATIFIED,
+    frames::SERIAL,
+    frames::AVERAGE,
     planes::AXIS_ALIGNED,
     planes::DYADIC,
     continuity::ZOOM,

@@ -8,6 +8,7 @@ mod cdf;
 mod cells;
 mod clamp;
 mod derivative;
+mod frame;
 mod hash;
 mod ideal;
 mod input;
@@ -45,7 +46,7 @@ impl fmt::Debug for Specimen {
 }
 
 /// The specimens, family by family.
-const FAMILIES: [&[Specimen]; 10] = [
+const FAMILIES: [&[Specimen]; 11] = [
     input::FAMILY,
     derivative::FAMILY,
     octave::FAMILY,
@@ -56,6 +57,7 @@ const FAMILIES: [&[Specimen]; 10] = [
     cdf::FAMILY,
     clamp::FAMILY,
     repair::FAMILY,
+    frame::FAMILY,
 ];
 
 /// Every specimen, in the order of the kill matrix.

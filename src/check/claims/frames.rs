@@ -1,0 +1,333 @@
+//! Thresholds over the frames of one point, and over the frames of one pixel.
+
+use super::determinism::{differing, fragments, trial};
+use super::stability::detectable;
+use super::uniform::reject_outsiders;
+use super::{Attempt, Claim, Conclusion, Promise, Trial, detectable_share};
+use crate::check::evidence::ComparedShare;
+use crate::check::kinship::Kinship;
+use crate::check::sample::{general_scenes, placement, sighting};
+use crate::check::tolerance::{
+    ALPHAS, DRIFT, FRAME_LAGS, FRAME_POINTS, FRAMES, NEWEST, STRATUM_ROUNDING, WIDE,
+};
+use crate::check::{Draw, Evidence, Subject, Verdict};
+use crate::scene::Fragment;
+use crate::stats::normal;
+use std::collections::HashMap;
+
+/// A threshold that does not spread over frames does not know them.
+pub const STATIC: Claim = Claim {
+    id: "frames.static",
+    anchor: "§5 (stable over time)",
+    statement: "the threshold of a point is the same in every frame, bit for bit",
+    expected: Verdict::Consistent,
+    promise: Some(Promise::Linear(8.0e-3)),
+    run: unchanging,
+};
+
+/// A threshold that spreads over n frames takes each stratum once.
+pub const STRATIFIED: Claim = Claim {
+    id: "frames.stratified",
+    anchor: "§7.2.3, Eq. 6",
+    statement: "in any n frames that follow each other, the thresholds of a point are chi + j / n modulo 1 for j = 0 to \
+                n - 1, in whatever order",
+    expected: Verdict::Consistent,
+    promise: Some(Promise::Linear(8.0e-3)),
+    run: stratified,
+};
+
+/// What a pixel shows while the surface moves under it.
+pub const SERIAL: Claim = Claim {
+    id: "frames.serial",
+    anchor: "§5 (sub-pixel translations); closed form not in the paper",
+    statement: "while a surface moves by 0.15 pixels a frame, the thresholds of one pixel are correlated from frame to \
+                frame as the size of the cells predicts",
+    expected: Verdict::Consistent,
+    promise: Some(Promise::Root(0.15)),
+    run: serial,
+};
+
+/// What temporal antialiasing makes of the strata.
+pub const AVERAGE: Claim = Claim {
+    id: "frames.average",
+    anchor: "§7.2.3, Eq. 6 (temporal antialiasing); closed form not in the paper",
+    statement: "the exponential average over frames of whether a fragment of one alpha is kept has the variance of its \
+                strata, and no more than that of independent frames",
+    expected: Verdict::Consistent,
+    promise: Some(Promise::Root(0.02)),
+    run: average,
+};
+
+fn not_applicable(reason: &str) -> Attempt<Trial> {
+    Ok(Trial::without(Conclusion::NotApplicable, reason))
+}
+
+/// The thresholds of points in one frame.
+fn in_frame(subject: &Subject<'_>, points: &[Fragment], frame: u32) -> Vec<f64> {
+    subject.thresholds(&points.iter().map(|point| Fragment { frame, ..*point }).collect::<Vec<_>>())
+}
+
+fn unchanging(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
+    if subject.frames != 1 {
+        return not_applicable("the subject claims to spread its thresholds over frames");
+    }
+    let points = fragments(subject, draw, STATIC.id);
+    let [first, others @ ..] = FRAMES.map(|frame| in_frame(subject, &points, frame));
+    let (different, told) = differing(&points, &first, &others);
+    Ok(trial(points.len(), different, told, "in another frame"))
+}
+
+/// Thresholds of points in general position over one period from a frame on: frame by frame.
+fn period(subject: &Subject<'_>, points: &[Fragment], from: u32) -> Attempt<Vec<Vec<f64>>> {
+    let frames = (from..from + subject.frames).map(|frame| {
+        let values = in_frame(subject, points, frame);
+        reject_outsiders(points, &values).map(|()| values)
+    });
+    frames.collect()
+}
+
+const IS_STATIC: &str = "the subject does not claim to spread its thresholds over frames";
+
+fn general_points(subject: &Subject<'_>, n: usize, draw: &Draw, claim: &str) -> Vec<Fragment> {
+    let mut rng = draw.rng(claim);
+    let scenes = general_scenes();
+    let point = |index: usize| {
+        let place = placement(&mut rng);
+        sighting(&scenes[index % scenes.len()], &mut rng).placed(place, subject.precision).fragment
+    };
+    (0..n).map(point).collect()
+}
+
+fn stratified(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
+    if subject.frames == 1 {
+        return not_applicable(IS_STATIC);
+    }
+    let points = general_points(subject, draw.samples(FRAME_POINTS / 8), draw, STRATIFIED.id);
+    let stratum = 1.0 / f64::from(subject.frames);
+    let (mut bad, mut largest, mut first) = (0, 0.0_f64, None);
+    // From the first frame on, and from one in the middle of a period.
+    let halves = points.split_at(points.len() / 2);
+    for (points, from) in [(halves.0, 0), (halves.1, 4 * subject.frames + subject.frames / 2)] {
+        let frames = period(subject, points, from)?;
+        for (at, point) in points.iter().enumerate() {
+            let mut values: Vec<f64> = frames.iter().map(|frame| frame[at]).collect();
+            values.sort_unstable_by(f64::total_cmp);
+            // Around the circle, the last next to the first.
+            let around = values[0] + 1.0 - values[values.len() - 1];
+            let gaps = values.windows(2).map(|pair| pair[1] - pair[0]).chain([around]);
+            let error = gaps.map(|gap| (gap - stratum).abs()).fold(0.0, f64::max);
+            largest = largest.max(error);
+            if error > STRATUM_ROUNDING {
+                bad += 1;
+                first.get_or_insert_with(|| format!("{values:?} at {}", point.footprint.position));
+            }
+        }
+    }
+    let n = points.len() as f64;
+    Ok(Trial {
+        conclusion: Conclusion::Exact { holds: bad == 0 },
+        statistic: Some(largest),
+        statistic_name: "largest error of a distance between neighbouring strata".into(),
+        n: points.len() as u64,
+        effect: Some(f64::from(bad) / n),
+        effect_name: "share of points without every stratum",
+        detectable: Some(detectable_share(n)),
+        seen: format!(
+            "{:.2} % of points do not take each stratum once; first {}",
+            100.0 * f64::from(bad) / n,
+            first.unwrap_or_default()
+        ),
+        evidence: Evidence::None,
+    })
+}
+
+/// A mean that was measured: its expectation, and the standard deviation of the mean.
+struct Mean {
+    name: String,
+    x: f64,
+    measured: f64,
+    predicted: f64,
+    sigma: f64,
+}
+
+impl Mean {
+    /// The mean of values beside the mean of what each was expected to be.
+    fn of(name: String, x: f64, values: impl Iterator<Item = (f64, f64)>) -> Self {
+        let (mut n, mut measured, mut predicted, mut squares) = (0.0, 0.0, 0.0, 0.0);
+        for (value, expected) in values {
+            n += 1.0;
+            measured += value;
+            predicted += expected;
+            squares += (value - expected) * (value - expected);
+        }
+        Self { name, x, measured: measured / n, predicted: predicted / n, sigma: squares.sqrt() / n }
+    }
+
+    fn z(&self) -> f64 {
+        let difference = self.measured - self.predicted;
+        if difference == 0.0 { 0.0 } else { difference / self.sigma }
+    }
+}
+
+/// A trial that rests on the worst of several means.
+fn worst_mean(means: &[Mean], n: usize, effect_name: &'static str, axes: [&'static str; 2]) -> Trial {
+    let Some(worst) = means.iter().max_by(|a, b| a.z().abs().total_cmp(&b.z().abs())) else {
+        return Trial::without(Conclusion::Inconclusive, "nothing was measured");
+    };
+    let points: Vec<ComparedShare> = means
+        .iter()
+        .map(|mean| ComparedShare {
+            series: mean.name.clone(),
+            x: mean.x,
+            measured: mean.measured,
+            predicted: mean.predicted,
+            sigma: mean.sigma,
+        })
+        .collect();
+    let effect = means.iter().map(|mean| (mean.measured - mean.predicted).abs()).fold(0.0, f64::max);
+    Trial {
+        conclusion: Conclusion::Probability((means.len() as f64 * normal::two_sided_p(worst.z())).min(1.0)),
+        statistic: Some(worst.z()),
+        statistic_name: format!("z, worst of {}", means.len()),
+        n: n as u64,
+        effect: Some(effect),
+        effect_name,
+        detectable: detectable(&points),
+        seen: format!(
+            "{} at {}: {:.5}, {:.5} is predicted",
+            worst.name, worst.x, worst.measured, worst.predicted
+        ),
+        evidence: Evidence::Quantity { abscissa: axes[0], ordinate: axes[1], points },
+    }
+}
+
+fn serial(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
+    if subject.frames != 1 {
+        return not_applicable("the subject claims to spread its thresholds over frames");
+    }
+    let mut rng = draw.rng(SERIAL.id);
+    let n = draw.samples(FRAME_POINTS);
+    let mut means = Vec::new();
+    for scene in general_scenes() {
+        for lag in FRAME_LAGS {
+            let (mut before, mut after, mut expected) = (Vec::new(), Vec::new(), Vec::new());
+            for _ in 0..n {
+                let place = placement(&mut rng) * WIDE;
+                let here = sighting(&scene, &mut rng).placed(place, subject.precision);
+                let motion = here.fragment.footprint.dpdx * (f64::from(lag) * DRIFT);
+                let kinship = Kinship::new(subject, &subject.nominal(&here.fragment.footprint), motion);
+                expected.push(kinship.correlation());
+                // The same pixel, where another point of the surface has come.
+                let there = here.moved(motion, subject.precision).fragment;
+                before.push(here.fragment);
+                after.push(Fragment { pixel: here.fragment.pixel, frame: lag, ..there });
+            }
+            let (old, new) = (subject.thresholds(&before), subject.thresholds(&after));
+            reject_outsiders(&before, &old)?;
+            reject_outsiders(&after, &new)?;
+            // A uniform value has a variance of 1/12.
+            let products = old.iter().zip(&new).map(|(a, b)| 12.0 * (a - 0.5) * (b - 0.5));
+            let name = scene.name.to_owned();
+            means.push(Mean::of(name, f64::from(lag), products.zip(expected)));
+        }
+    }
+    let axes = ["frames", "correlation"];
+    Ok(worst_mean(&means, means.len() * n, "error in the correlation", axes))
+}
+
+/// Weights of an exponential average over frames that repeat with a period, the newest frame last; they add up to 1.
+fn exponential_weights(period: u32) -> Vec<f64> {
+    let powers: Vec<f64> = (0..period).rev().map(|age| libm::pow(1.0 - NEWEST, f64::from(age))).collect();
+    let sum: f64 = powers.iter().sum();
+    powers.iter().map(|power| power / sum).collect()
+}
+
+/// The average of whether thresholds keep a fragment.
+fn kept(thresholds: impl Iterator<Item = f64>, weights: &[f64], alpha: f64) -> f64 {
+    thresholds.zip(weights).filter(|(threshold, _)| *threshold <= alpha).map(|(_, weight)| weight).sum()
+}
+
+/// Variance of the average for strata that are visited in one order, over a uniform chi: which frames keep a fragment is
+/// constant between the places where one of them passes alpha.
+fn variance(order: &[u32], weights: &[f64], alpha: f64) -> f64 {
+    let around = |place: f64| place - place.floor();
+    let offsets = || order.iter().map(|&stratum| f64::from(stratum) / order.len() as f64);
+    let mut places: Vec<f64> =
+        offsets().flat_map(|offset| [around(-offset), around(alpha - offset)]).chain([0.0, 1.0]).collect();
+    places.sort_unstable_by(f64::total_cmp);
+    let within = |pair: &[f64]| {
+        let chi = pair[0].midpoint(pair[1]);
+        let error = kept(offsets().map(|offset| around(chi + offset)), weights, alpha) - alpha;
+        (pair[1] - pair[0]) * error * error
+    };
+    places.windows(2).map(within).sum()
+}
+
+fn average(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
+    if subject.frames == 1 {
+        return not_applicable(IS_STATIC);
+    }
+    let n = draw.samples(FRAME_POINTS);
+    let points = general_points(subject, n, draw, AVERAGE.id);
+    let frames = period(subject, &points, 0)?;
+    let weights = exponential_weights(subject.frames);
+    // The strata of the frames, counted from that of the first.
+    let strata = f64::from(subject.frames);
+    let order = |at: usize| -> Vec<u32> {
+        let stratum = |frame: &Vec<f64>| ((frame[at] - frames[0][at]) * strata).round().rem_euclid(strata);
+        frames.iter().map(|frame| stratum(frame) as u32).collect()
+    };
+    let of_independent: f64 = weights.iter().map(|weight| weight * weight).sum();
+    let (mut means, mut exceeds) = (Vec::new(), None);
+    for alpha in ALPHAS {
+        let mut known: HashMap<Vec<u32>, f64> = HashMap::new();
+        let bound = alpha * (1.0 - alpha) * of_independent;
+        let pairs = (0..points.len()).map(|at| {
+            let error = kept(frames.iter().map(|frame| frame[at]), &weights, alpha) - alpha;
+            let order = order(at);
+            let expected = match known.get(&order) {
+                Some(&expected) => expected,
+                None => {
+                    let expected = variance(&order, &weights, alpha);
+                    if expected > bound {
+                        exceeds = Some(format!(
+                            "strata in the order {order:?} have a variance of {expected:.5} at an alpha of {alpha}, \
+                             more than the {bound:.5} of independent frames"
+                        ));
+                    }
+                    known.insert(order, expected);
+                    expected
+                }
+            };
+            (error * error, expected)
+        });
+        means.push(Mean::of("average over frames".into(), alpha, pairs));
+    }
+    let axes = ["alpha", "variance of the average"];
+    let trial = worst_mean(&means, n, "error in the variance", axes);
+    Ok(match exceeds {
+        Some(seen) => Trial { conclusion: Conclusion::Exact { holds: false }, seen, ..trial },
+        None => trial,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equal_weights_leave_the_variance_of_one_stratum() {
+        for (order, alpha) in [([0, 2, 1, 3], 0.3), ([3, 2, 1, 0], 0.5), ([0, 1, 2, 3], 0.9)] {
+            let part = 4.0 * alpha - f64::floor(4.0 * alpha);
+            let found = variance(&order, &[0.25; 4], alpha);
+            assert!((found - part * (1.0 - part) / 16.0).abs() < 1e-12, "{order:?} {alpha}: {found}");
+        }
+    }
+
+    #[test]
+    fn a_single_stratum_has_the_variance_of_one_frame() {
+        assert!((variance(&[0], &[1.0], 0.3) - 0.21).abs() < 1e-12);
+        let weights = exponential_weights(8);
+        assert!((weights.iter().sum::<f64>() - 1.0).abs() < 1e-12 && weights[7] > weights[0]);
+    }
+}
