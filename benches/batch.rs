@@ -22,9 +22,8 @@ fn footprints<R: Real>() -> Vec<Footprint<R>> {
 }
 
 fn models() -> Vec<(&'static str, Model)> {
-    let listing = |variant, hash| {
-        Model::from(HashedAlpha { variant, hash, hash_scale: 1.0, form: CdfForm::Literal })
-    };
+    let listing =
+        |variant, hash| Model::from(HashedAlpha { variant, hash, hash_scale: 1.0, form: CdfForm::Literal });
     let robust = |join| Model::from(Robust { join, ..Robust::new(Variant::Isotropic) });
     vec![
         ("listing-1", listing(Variant::Isotropic, HashKind::Sine)),

@@ -7,6 +7,8 @@
 //! | [`scene`] | cameras and surfaces: where footprints come from |
 //! | [`stats`] | tests with true tails; knows nothing of alpha testing |
 //! | `shader` (feature `shader`) | the same in shading languages, an interpreter for them, and the device |
+//! | [`technique`] | what the sources compare with or build upon the hash |
+//! | `render` (feature `render`) | scenes that simulate only the effects they call for |
 //! | [`check`] | the verdict: claims, subjects, runs |
 //! | `report` (feature `plots`; text, JSON and HTML with `cli`) | what people see |
 //!
@@ -14,12 +16,15 @@
 //! paper's to the letter, [`check::run`] for a verdict.
 
 pub mod check;
+#[cfg(feature = "render")]
+pub mod render;
 #[cfg(feature = "plots")]
 pub mod report;
 pub mod scene;
 #[cfg(feature = "shader")]
 pub mod shader;
 pub mod stats;
+pub mod technique;
 pub mod threshold;
 
 /// The examples of the README, so that they are compiled and run.
