@@ -1,0 +1,106 @@
+//! Screen-door transparency: strata of a threshold over a tile of pixels in place of the samples of one (§3, §8.1).
+
+use crate::threshold::coverage::{decorrelated, jittered, regular};
+use crate::threshold::hash::integer::murmur3;
+use crate::threshold::hash::open_lattice;
+use crate::threshold::real::Real;
+use core::num::NonZeroU32;
+
+/// Pixels along each side of a tile.
+pub const TILE: u32 = 4;
+const STRATA: NonZeroU32 = NonZeroU32::new(TILE * TILE).unwrap();
+
+/// Returns the threshold of a pixel under a fixed mask: the ordered dither of 4 x 4 pixels, `(k + 1/2) / 16` (Mulder et
+/// al. 1998). The same in every tile and for every layer.
+#[must_use]
+pub fn fixed<R: Real>(pixel: [u32; 2]) -> R {
+    regular(ordered(pixel), STRATA)
+}
+
+/// Returns the threshold of a pixel under one random mask for the whole screen: the strata of the tile in an order that
+/// `seed` draws. §3: "even random mask patterns lead to correlation between composited layers".
+#[must_use]
+pub fn random_mask<R: Real>(pixel: [u32; 2], seed: u32) -> R {
+    let word = |k: u32| murmur3([k, seed, 0, 0]);
+    let own = place(pixel);
+    // The rank of the own word among all: a permutation but for equal words, of which the earlier goes first.
+    let rank = (0..STRATA.get()).filter(|&k| (word(k), k) < (word(own), own)).count();
+    regular(rank as u32, STRATA)
+}
+
+/// Returns the threshold of a pixel with strata permuted and jittered for each tile and layer, Eqs. 8 and 9 between
+/// pixels; in [2^-24, 1]. §8.1.
+///
+/// `layer` is any word that tells overlapping surfaces apart, as a hash of their place does.
+#[must_use]
+pub fn randomised<R: Real>(pixel: [u32; 2], layer: u32) -> R {
+    let tile = pixel.map(|c| c / TILE);
+    let hash = |which: u32| open_lattice::<R>(murmur3([tile[0], tile[1], layer, which]));
+    let stratum = decorrelated([hash(0), hash(1)], ordered(pixel), STRATA);
+    jittered(hash(2 + place(pixel)), stratum, STRATA)
+}
+
+/// Returns the number of a pixel within its tile, row after row.
+fn place(pixel: [u32; 2]) -> u32 {
+    pixel[1] % TILE * TILE + pixel[0] % TILE
+}
+
+/// Returns the place of a pixel in the ordered dither: the bits of x xor y and of y, interleaved from the lowest.
+fn ordered([x, y]: [u32; 2]) -> u32 {
+    let (x, y) = (x % TILE, y % TILE);
+    let mixed = x ^ y;
+    (mixed & 1) << 3 | (y & 1) << 2 | (mixed & 2) | (y & 2) >> 1
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn pixels() -> impl Iterator<Item = [u32; 2]> {
+        (0..64 * 64).map(|i| [i % 64, i / 64])
+    }
+
+    fn union(layers: u32, threshold: impl Fn([u32; 2], u32) -> f64) -> f64 {
+        let covered = pixels().filter(|&p| (0..layers).any(|layer| 0.5 >= threshold(p, layer)));
+        covered.count() as f64 / 4096.0
+    }
+
+    #[test]
+    fn each_tile_holds_each_stratum_once() {
+        for layer in 0..3 {
+            let of = |i: u32| [4 + i % TILE, 8 + i / TILE];
+            let thresholds: [fn([u32; 2], u32) -> f64; 3] =
+                [|p, _| fixed(p), |p, _| random_mask(p, 7), randomised];
+            for threshold in thresholds {
+                let mut strata: Vec<_> = (0..16).map(|i| (threshold(of(i), layer) * 16.0) as u32).collect();
+                strata.sort_unstable();
+                assert!(strata.into_iter().eq(0..16));
+            }
+        }
+        assert_eq!((0..4).map(|x| ordered([x, 0])).collect::<Vec<_>>(), [0, 8, 2, 10]);
+    }
+
+    /// "Even random mask patterns lead to correlation between composited layers": two layers look like one; with a
+    /// permutation of each tile and layer they follow the product.
+    #[test]
+    fn only_tiles_of_their_own_make_layers_multiply() {
+        for layers in [2, 4, 8] {
+            assert_eq!(union(layers, |p, _| fixed(p)), 0.5);
+            assert_eq!(union(layers, |p, _| random_mask(p, 3)), 0.5);
+            let product = 1.0 - libm::exp2(-f64::from(layers));
+            let covered = union(layers, randomised);
+            assert!((covered - product).abs() < 0.02, "{layers} layers: {covered}");
+        }
+    }
+
+    /// "Repeated dither patterns visible over the screen."
+    #[test]
+    fn fixed_and_random_masks_repeat_from_tile_to_tile() {
+        let repeats = |threshold: &dyn Fn([u32; 2]) -> f64| {
+            pixels().filter(|&[x, y]| threshold([x, y]) == threshold([x + TILE, y])).count()
+        };
+        assert_eq!(repeats(&fixed), 4096);
+        assert_eq!(repeats(&|p| random_mask(p, 3)), 4096);
+        assert!(repeats(&|p| randomised(p, 0)) < 10);
+    }
+}
