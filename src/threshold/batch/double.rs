@@ -6,6 +6,7 @@
 
 use super::lane::Kernel;
 use crate::threshold::real::Real;
+use crate::threshold::robust::scales::below_one;
 
 impl Kernel for f64 {
     const LARGEST_WORD: Self = 1_125_899_906_842_624.0;
@@ -33,6 +34,13 @@ impl Kernel for f64 {
         let log = log2(scale);
         let floor = Real::floor(log);
         (floor.word() as i32, log - floor)
+    }
+    #[inline(always)]
+    fn octave_by_exponent<const FUSED: bool>(scale: Self) -> (i32, Self) {
+        const MANTISSA: u64 = (1 << 52) - 1;
+        const ONE: u64 = 0x3ff << 52;
+        let mantissa = f64::from_bits((scale.to_bits() & MANTISSA) | ONE);
+        (exponent(scale) as i32 - 1023, below_one(log2(mantissa)))
     }
     #[inline(always)]
     fn sine<const FUSED: bool>(self) -> Self {

@@ -94,7 +94,11 @@ impl<R: Kernel> Octaves<R> {
             (&mut coarse[axis], &mut fine[axis], &mut fraction[axis], &scale[axis]);
         if R::HAS_TIERS && plan.tier != Tier::BitExact {
             for i in 0..BLOCK {
-                (coarse[i], fraction[i]) = R::octave_by_bits(scale[i]);
+                (coarse[i], fraction[i]) = R::octave_fast(scale[i]);
+            }
+        } else if plan.one_log2 {
+            for i in 0..BLOCK {
+                (coarse[i], fraction[i]) = R::octave_by_exponent::<FUSED>(scale[i]);
             }
         } else {
             for i in 0..BLOCK {

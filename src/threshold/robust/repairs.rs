@@ -13,7 +13,8 @@ pub enum Repair {
     /// A cell is no smaller than 2^-21 of the largest coordinate and, along an axis, no smaller than 2^-5 of the
     /// largest cell side; lengths neither under- nor overflow.
     DerivativeFloor,
-    /// Octave, next octave and fraction come from one logarithm: the next octave is always one above.
+    /// The octave is read off the exponent of the scale, the fraction is the logarithm of its mantissa, and the next
+    /// octave is always one above: one rounding cannot move one of the three alone.
     OneLog2,
     /// Cells are cut at 2/3 and 1/3 of a unit in turn, octave by octave, and not at whole numbers, on which the
     /// planes of real models lie.

@@ -64,19 +64,43 @@ pub fn scales<R: Real>(
         max_derivative.map(|derivative| hash_scale * derivative)
     };
     let pixel_scale = side.map(|side| numerator / side);
-    let log_scale = pixel_scale.map(R::log2);
-    let floor = log_scale.map(R::floor);
-    let one = R::from_f64(1.0);
-    let one_log2 = repairs.contains(Repair::OneLog2);
-    let octave = floor.map(R::to_i32);
-    let next_octave =
-        if one_log2 { octave.map(|k| k.saturating_add(1)) } else { log_scale.map(|l| l.ceil().to_i32()) };
-    let below_one = R::from_f64(1.0 - 1.0 / 16_777_216.0);
-    let fraction = log_scale.map(|l| {
-        let fraction = l.fract();
-        if one_log2 && fraction >= one { below_one } else { fraction }
-    });
-    Scales { max_derivative, pixel_scale, octave, next_octave, fraction }
+    let split = if repairs.contains(Repair::OneLog2) { by_exponent } else { by_logarithm };
+    let [(x, next_x, fraction_x), (y, next_y, fraction_y), (z, next_z, fraction_z)] = pixel_scale.map(split);
+    Scales {
+        max_derivative,
+        pixel_scale,
+        octave: [x, y, z],
+        next_octave: [next_x, next_y, next_z],
+        fraction: [fraction_x, fraction_y, fraction_z],
+    }
+}
+
+/// Cuts a scale to its octave, the next one and the fraction between them, as the listings do: by one logarithm.
+fn by_logarithm<R: Real>(scale: R) -> (i32, i32, R) {
+    let log = scale.log2();
+    (log.floor().to_i32(), log.ceil().to_i32(), log.fract())
+}
+
+/// Cuts a scale to its octave, the next one and the fraction between them, in [0, 1): the octave out of the exponent,
+/// the fraction out of the mantissa, so that the two cannot disagree.
+///
+/// The logarithm of a mantissa has all its digits after the point; that of a scale spends up to seven of them on the
+/// octave, and the weight of the join would have an error of half its last digit. What is not a positive number has
+/// no exponent and goes by the logarithm. Not in the paper.
+#[must_use]
+pub fn by_exponent<R: Real>(scale: R) -> (i32, i32, R) {
+    let wide = scale.to_f64();
+    if !(wide > 0.0 && wide.is_finite()) {
+        return by_logarithm(scale);
+    }
+    let (half_mantissa, exponent) = libm::frexp(wide);
+    (exponent - 1, exponent, below_one(R::from_f64(2.0 * half_mantissa).log2()))
+}
+
+/// Returns a fraction in [0, 1], of which rounding may have made 1, in [0, 1).
+#[inline(always)]
+pub(in crate::threshold) fn below_one<R: Real>(fraction: R) -> R {
+    if fraction < R::from_f64(1.0) { fraction } else { R::from_f64(1.0 - 1.0 / 16_777_216.0) }
 }
 
 /// Returns the cell of `position` in the grid with 2^octave cells per object unit along each axis.

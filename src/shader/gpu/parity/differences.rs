@@ -29,10 +29,7 @@ const fn of_swiftshader(stage: &'static str, reason: &'static str) -> Difference
 /// Every known difference. One that does not occur any more is as much of a finding as a new one.
 pub const DIFFERENCES: &[Difference] = &[
     of_all("log2", LOGARITHM),
-    of_all(
-        "fraction from the mantissa",
-        "the logarithm of the mantissa, where Rust takes that of the whole scale",
-    ),
+    of_all("fraction from the mantissa", LOGARITHM),
     of_swiftshader(
         "hash sine, far cells",
         "a sine whose argument is reduced by a rounded 1/(2 pi): from 2^17 on",
@@ -45,10 +42,10 @@ pub const DIFFERENCES: &[Difference] = &[
     of_all("normal distribution", "f32 in place of f64, and the device's exp"),
     of_all("threshold listing 1, mm4", LOGARITHM),
     of_all("threshold listing 2, mm4", LOGARITHM),
-    of_all("threshold robust isotropic interpolate", "the fraction from the mantissa"),
-    of_all("threshold robust isotropic copula", "the fraction from the mantissa, and f32 in place of f64"),
-    of_all("threshold robust anisotropic interpolate", "the fraction from the mantissa"),
-    of_all("threshold robust anisotropic copula", "the fraction from the mantissa, and f32 in place of f64"),
+    of_all("threshold robust isotropic interpolate", LOGARITHM),
+    of_all("threshold robust isotropic copula", "the same logarithm, and f32 in place of f64"),
+    of_all("threshold robust anisotropic interpolate", LOGARITHM),
+    of_all("threshold robust anisotropic copula", "the same logarithm, and f32 in place of f64"),
 ];
 
 /// Returns the known difference of an adapter at a stage; `None` where all bits, or the laws, are equal.
