@@ -317,6 +317,12 @@ mod tests {
     }
 
     #[test]
+    fn an_empty_bin_that_must_be_empty_says_nothing() {
+        let with = against(&[30, 50, 0, 20], &[0.3, 0.5, 0.0, 0.2]).unwrap();
+        assert_eq!((with.statistic, with.p), (0.0, 1.0));
+    }
+
+    #[test]
     fn p_is_uniform_on_an_ideal_source() {
         assert_uniform_p("stats.chi_square.uniform", |rng| {
             uniform(histogram(16, 2000, rng).counts()).unwrap().p

@@ -133,6 +133,14 @@ mod tests {
     }
 
     #[test]
+    fn between_its_ends_a_threshold_moves_on_a_line() {
+        for b in [0.25_f64, 0.5, 0.75] {
+            assert_eq!(fade_in_literal(0.9, b), 0.5 + 0.4 * b);
+            assert!((fade_in(0.9, b) - fade_in_literal(0.9, b)).abs() < 1e-15);
+        }
+    }
+
+    #[test]
     fn kept_share_follows_the_ramp() {
         let n = 10_000;
         for (alpha, b) in [(0.3, 0.25), (0.45, 0.25), (0.7, 0.5), (0.2, 1.0)] {

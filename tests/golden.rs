@@ -1,0 +1,89 @@
+//! Same seed, same bits: the battery on a few subjects, line by line as it was committed, on every machine and with any
+//! number of threads.
+//!
+//! A change of these lines is a change of seeded results and belongs into the changelog;
+//! `HASHED_ALPHA_BLESS=all cargo test --test golden` writes them anew.
+
+use hashed_alpha::check::specimen::{self, ideal};
+use hashed_alpha::check::subject::Precision;
+use hashed_alpha::check::{
+    Budget, Draw, Outcome, Subject, claims, compare, coordinates, diagnosis, run_claims,
+};
+use hashed_alpha::threshold::robust::Join;
+use hashed_alpha::threshold::two_scale::Variant;
+use sha2::{Digest, Sha256};
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+/// Not the draw of the kill matrix.
+const DRAW: Draw = Draw { seed: 7, budget: Budget::Quick, round: 0 };
+
+fn path() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden/battery.txt")
+}
+
+/// What is sound and what is not.
+fn subjects() -> Vec<Subject<'static>> {
+    let sound = ideal(1, Variant::Anisotropic, Precision::F32, Join::Dithered);
+    let kept = |subjects: Vec<Subject<'static>>, name: &str, precision: Precision| {
+        subjects.into_iter().find(|subject| subject.name == name && subject.precision == precision)
+    };
+    let robust = kept(Subject::all_repairs(), "robust:isotropic", Precision::F64);
+    let paper = kept(Subject::paper(), "paper:anisotropic", Precision::F32);
+    [Some(sound), robust, paper].into_iter().flatten().collect()
+}
+
+/// The first digits of a digest.
+fn digest(all: &impl core::fmt::Debug) -> String {
+    Sha256::digest(format!("{all:?}"))
+        .iter()
+        .take(6)
+        .fold(String::new(), |text, byte| text + &format!("{byte:02x}"))
+}
+
+fn line(outcome: &Outcome) -> String {
+    let number = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| format!("{value:e}"));
+    let Outcome { check, subject, precision, verdict, n, p, effect, detectable, .. } = outcome;
+    let [p, effect, detectable] = [p, effect, detectable].map(|value| number(*value));
+    let everything = digest(&Outcome { p_holm: None, ..outcome.clone() });
+    format!(
+        "{subject} {precision} {check} {verdict} n={n} p={p} effect={effect} of {detectable} {everything}"
+    )
+}
+
+/// Everything that is kept, by lines.
+fn battery() -> String {
+    let subjects = subjects();
+    let outcomes = run_claims(claims::ALL, &subjects, &DRAW, || {});
+    let mut text: String = outcomes.iter().map(|outcome| line(outcome) + "\n").collect();
+    for pair in subjects.windows(2) {
+        let compared = compare::compare(&pair[0], &pair[1], &DRAW);
+        let _ = writeln!(text, "{} and {}: {compared:?}", pair[0].name, pair[1].name);
+    }
+    for specimen in specimen::ALL.iter().step_by(70) {
+        let outcomes = run_claims(claims::ALL, &[(specimen.subject)()], &DRAW, || {});
+        let _ = writeln!(text, "{} looks like {}", specimen.name, digest(&diagnosis::guesses(&outcomes)));
+    }
+    for entry in coordinates::table(&DRAW) {
+        let _ = writeln!(text, "{entry:?}");
+    }
+    text
+}
+
+#[test]
+fn same_seed_same_bits() {
+    let found = battery();
+    if std::env::var_os("HASHED_ALPHA_BLESS").is_some() {
+        std::fs::write(path(), &found).expect("the folder of the committed lines exists");
+        return;
+    }
+    let committed = std::fs::read_to_string(path()).expect("the committed lines");
+    let differ: Vec<String> = committed
+        .lines()
+        .zip(found.lines())
+        .filter(|(committed, found)| committed != found)
+        .map(|(committed, found)| format!("- {committed}\n+ {found}\n"))
+        .collect();
+    assert!(differ.is_empty(), "{} lines differ:\n{}", differ.len(), differ.concat());
+    assert_eq!(committed.lines().count(), found.lines().count());
+}
