@@ -330,3 +330,10 @@ fn a_stream_counts_as_one_histogram_would() {
     assert_eq!(streamed, bins);
     assert_eq!(bins.counts().iter().sum::<u64>() + bins.outside(), count);
 }
+
+#[test]
+fn columns_know_how_many_footprints_they_hold() {
+    let (none, some) = (ColumnBuffer::<f32>::zeroed(0), ColumnBuffer::<f64>::zeroed(3));
+    assert!(none.columns().is_empty() && none.columns().len() == 0);
+    assert!(!some.columns().is_empty() && some.columns().len() == 3);
+}

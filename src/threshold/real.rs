@@ -378,6 +378,7 @@ mod tests {
 
     #[test]
     fn min_max_and_clamp_are_those_of_glsl() {
+        assert!(Real::max(-0.0_f32, 0.0).is_sign_negative() && Real::min(-0.0_f32, 0.0).is_sign_negative());
         assert!(Real::max(f32::NAN, 1.0).is_nan());
         assert_eq!(Real::max(1.0, f32::NAN), 1.0);
         assert!(Real::clamp(f64::NAN, 0.0, 1.0).is_nan());

@@ -167,3 +167,31 @@ fn log2(x: f64) -> f64 {
     let sum = exponent + value_high;
     (value_low + ((exponent - sum) + value_high)) + sum
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::stats::seed::{rng, uniform01};
+
+    #[test]
+    fn the_common_way_is_taken_nearly_always_and_is_that_of_libm() {
+        let mut rng = rng("threshold.batch.double", 0);
+        let n = 100_000;
+        let unsure = (0..n)
+            .filter(|_| {
+                let x = (uniform01(&mut rng) - 0.5) * 2.0 * f64::LARGEST_SINE;
+                let value = sin(x);
+                assert!(value.is_nan() || value.to_bits() == libm::sin(x).to_bits(), "{x:e}");
+                value.is_nan()
+            })
+            .count();
+        assert!(unsure * 1_000 < n, "{unsure} of {n} arguments go to libm");
+    }
+
+    #[test]
+    fn the_exponent_is_the_biased_one() {
+        for (x, expected) in [(1.0, 1023), (-0.75, 1022), (1.0e300, 2019), (0.0, 0)] {
+            assert_eq!(exponent(x), expected);
+        }
+    }
+}

@@ -98,3 +98,14 @@ pub(crate) fn log2_block<const FUSED: bool>(x: &Block<f32>, out: &mut Block<f32>
         out[i] = log2_everywhere::<FUSED>(x[i]);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_polynomial_serves_its_domain_and_no_more() {
+        assert!([0.0, -1.0, SIN_F32_DOMAIN, -SIN_F32_DOMAIN].into_iter().all(is_within));
+        assert!(![SIN_F32_DOMAIN.next_up(), f32::INFINITY, f32::NAN].into_iter().any(is_within));
+    }
+}

@@ -159,3 +159,18 @@ fn safe_length<R: Real>(v: [R; 3]) -> R {
     }
     largest * length(v.map(|c| c / largest))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lengths_are_found_where_squares_are_out_of_range() {
+        for size in [1.0e-30_f32, 1.0e-10, 1.0, 1.0e25] {
+            let found = safe_length([3.0 * size, -4.0 * size, 0.0]);
+            assert!((found / (5.0 * size) - 1.0).abs() < 1e-6, "{found:e}");
+        }
+        assert_eq!(safe_length([0.0_f64; 3]), 0.0);
+        assert_eq!(safe_length([1.0, f64::INFINITY, 0.0]), f64::INFINITY);
+    }
+}
