@@ -164,3 +164,25 @@ fn same_law(subject: &Subject<'_>, samples: [(&[Fragment], &[f64]); 2]) -> Resul
     };
     Ok([by_table, by_distance])
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_comparison_reads_as_shares_in_percent() {
+        let comparison = Comparison {
+            n: 200,
+            refused: [0, 1],
+            share_equal: 0.25,
+            share_within: 0.5,
+            largest_difference: 0.125,
+            p_chi_square: 0.5,
+            p_kolmogorov_smirnov: 0.75,
+            agreement: Agreement::SameLaw,
+        };
+        let expected = "same law; of 200 thresholds 25.00 % are equal in bits, 50.00 % are within 1e-6, the largest \
+                        difference is 1.25e-1; p of one law 0.500 (chi-square), 0.750 (Kolmogorov-Smirnov)";
+        assert_eq!(comparison.to_string(), expected);
+    }
+}

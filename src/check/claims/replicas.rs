@@ -76,3 +76,17 @@ pub(super) fn worst_of(
         evidence,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_replicas_that_are_all_zero_say_nothing() {
+        let p = |replicas: &[f64]| Mean::of("", replicas).map(|mean| mean.p);
+        assert_eq!(p(&[0.0; 4]), Some(1.0));
+        assert_eq!(p(&[0.3; 4]), Some(0.0));
+        assert_eq!(p(&[0.3]), None);
+        assert!(p(&[0.1, -0.2, 0.1, 0.1]).is_some_and(|p| p > 0.5 && p < 1.0));
+    }
+}

@@ -189,6 +189,14 @@ mod tests {
     }
 
     #[test]
+    fn near_a_quarter_turn_the_second_part_is_enough() {
+        for quarter in 5..10_000 {
+            let x = f64::from(quarter) * core::f64::consts::FRAC_PI_2 + 1.0e-6;
+            assert_eq!(sin(x).to_bits(), libm::sin(x).to_bits(), "{x:e}");
+        }
+    }
+
+    #[test]
     fn the_exponent_is_the_biased_one() {
         for (x, expected) in [(1.0, 1023), (-0.75, 1022), (1.0e300, 2019), (0.0, 0)] {
             assert_eq!(exponent(x), expected);
