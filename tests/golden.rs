@@ -29,8 +29,9 @@ fn subjects() -> Vec<Subject<'static>> {
         subjects.into_iter().find(|subject| subject.name == name && subject.precision == precision)
     };
     let robust = kept(Subject::all_repairs(), "robust:isotropic", Precision::F64);
+    let copula = kept(Subject::all_repairs(), "robust:anisotropic", Precision::F32);
     let paper = kept(Subject::paper(), "paper:anisotropic", Precision::F32);
-    [Some(sound), robust, paper].into_iter().flatten().collect()
+    [Some(sound), robust, copula, paper].into_iter().flatten().collect()
 }
 
 /// The first digits of a digest.
@@ -56,6 +57,11 @@ fn battery() -> String {
     let subjects = subjects();
     let outcomes = run_claims(claims::ALL, &subjects, &DRAW, || {});
     let mut text: String = outcomes.iter().map(|outcome| line(outcome) + "\n").collect();
+    for claim in claims::ALL {
+        let made_for = specimen::ALL.iter().find(|specimen| specimen.claim == claim.id);
+        let outcomes = made_for.map(|specimen| run_claims(&[*claim], &[(specimen.subject)()], &DRAW, || {}));
+        text.extend(outcomes.iter().flatten().map(|outcome| line(outcome) + "\n"));
+    }
     for pair in subjects.windows(2) {
         let compared = compare::compare(&pair[0], &pair[1], &DRAW);
         let _ = writeln!(text, "{} and {}: {compared:?}", pair[0].name, pair[1].name);

@@ -351,6 +351,8 @@ mod tests {
     #[test]
     fn what_does_not_fit_is_refused() {
         assert_eq!(periodogram(&[1.0; 5], [2, 3]), Err(StatsError::LengthMismatch { left: 5, right: 6 }));
+        let wrong = ordinates(&[1.0; 5], &[1.0; 6], [2, 3], 0.5);
+        assert_eq!(wrong.map(|found| found.len()), Err(StatsError::LengthMismatch { left: 5, right: 6 }));
         assert_eq!(periodogram(&[], [0, 3]), Err(StatsError::Empty));
         assert_eq!(ordinates(&[1.0; 4], &[1.0; 4], [2, 2], 1.0), Err(StatsError::Empty));
         assert!(ordinates(&[1.0; 9], &[0.0; 9], [3, 3], 1.0).is_err());
