@@ -160,7 +160,7 @@ proptest! {
     ) {
         let n = NonZeroU32::new(n).expect("from 1 on");
         let chi = |word: u32| {
-            let hashed = if word % 7 == 0 { 1.0 } else { open_lattice(word) };
+            let hashed = if word.is_multiple_of(7) { 1.0 } else { open_lattice(word) };
             blend_towards(authored, Order::ALL[order].threshold(hashed, frame, n), b)
         };
         let xi = [words[1], words[2]].map(open_lattice::<f64>);

@@ -136,8 +136,8 @@ fn quality() -> Measured {
     let own = deviations(|alpha, p| mask::by_pixel(alpha, N, p)).1;
     let floor = deviations(|alpha, _| mask::hardware(alpha, N)).1;
     let layers = mean((0..4096).map(|i| {
-        let mask = mask::by_pixel(0.5, N, [i % 64, i / 64]);
-        mask::coverage(mask | mask, N)
+        let layers = (0..2).fold(0, |all, _| all | mask::by_pixel(0.5, N, [i % 64, i / 64]));
+        mask::coverage(layers, N)
     }));
     let seen = format!(
         "error of the mean coverage over alphas: {own:.4}, floor(n alpha) {floor:.4}; but two layers of alpha 1/2 still cover \
