@@ -1,10 +1,14 @@
-//! Properties that hold for every input: of the CDF, and of a shift by whole cells.
+//! Properties that hold for every input: of the CDF, of a shift by whole cells, and of any chain of techniques.
 
+use core::num::NonZeroU32;
 use glam::{DVec3, dvec3};
+use hashed_alpha::technique::blend_towards::blend_towards;
+use hashed_alpha::technique::order::Order;
+use hashed_alpha::technique::{mask, screen_door};
 use hashed_alpha::threshold::cdf::CdfForm;
 use hashed_alpha::threshold::cdf::{cdf, cdf_literal, density, quantile};
 use hashed_alpha::threshold::footprint::Footprint;
-use hashed_alpha::threshold::hash::{HashKind, sine};
+use hashed_alpha::threshold::hash::{HashKind, open_lattice, sine};
 use hashed_alpha::threshold::hashed::{HashedAlpha, SMALLEST_THRESHOLD};
 use hashed_alpha::threshold::robust::{Join, Repairs, Robust, scales};
 use hashed_alpha::threshold::two_scale::Variant;
@@ -146,5 +150,39 @@ proptest! {
     #[test]
     fn the_sine_hash_stays_in_the_unit_interval(x in -1e6..1e6_f32, y in -1e6..1e6_f32) {
         prop_assert!((0.0..=1.0).contains(&sine::hash_2d(x.floor(), y.floor())));
+    }
+
+    /// Hash, temporal order, fade towards an authored threshold, then any kind of mask: in every combination.
+    #[test]
+    fn alpha_0_never_shows_and_alpha_1_has_no_hole_through_any_chain(
+        words in prop::array::uniform4(any::<u32>()), order in 0..Order::ALL.len(), frame in any::<u32>(), n in 1..32_u32,
+        authored in 1e-3..=1.0_f64, b in -0.5..1.5_f64,
+    ) {
+        let n = NonZeroU32::new(n).expect("from 1 on");
+        let chi = |word: u32| {
+            let hashed = if word.is_multiple_of(7) { 1.0 } else { open_lattice(word) };
+            blend_towards(authored, Order::ALL[order].threshold(hashed, frame, n), b)
+        };
+        let xi = [words[1], words[2]].map(open_lattice::<f64>);
+        let all = (1_u64 << n.get()) - 1;
+        for (alpha, expected) in [(0.0, 0), (1.0, all as u32)] {
+            prop_assert_eq!(alpha >= chi(words[0]), alpha == 1.0);
+            let masks = [
+                mask::fixed_dither(alpha, n),
+                mask::hardware(alpha, n),
+                mask::stratified(alpha, n, |i| chi(words[0] ^ i)),
+                mask::permuted(alpha, n, xi, |i| chi(words[0] ^ i)),
+                mask::random_set(alpha, n, xi[0], words[3]),
+                mask::by_pixel(alpha, n, [words[0], words[3]]),
+            ];
+            prop_assert_eq!(masks, [expected; 6]);
+            for threshold in [
+                screen_door::fixed([words[0], words[1]]),
+                screen_door::random_mask([words[0], words[1]], words[2]),
+                screen_door::randomised([words[0], words[1]], words[2]),
+            ] {
+                prop_assert_eq!(alpha >= threshold, alpha == 1.0);
+            }
+        }
     }
 }
