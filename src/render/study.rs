@@ -1,0 +1,251 @@
+//! All takes of a scene, frame by frame, with what is measured of them.
+
+use super::adjust::textures;
+use super::cost::Cost;
+use super::effects::Effects;
+use super::expect::{Checked, check};
+use super::file::{Inset, Takes};
+use super::metrics::{Measured, Metrics};
+use super::picture::Picture;
+use super::plan::{Plan, Stage, TextureNeeds, plan};
+use super::prepare::Scene;
+use super::run;
+use super::texture::Texture;
+use super::truth;
+use super::view::Cause;
+use super::{auto, picture, temporal};
+use crate::scene::Camera;
+use image::RgbImage;
+use std::collections::VecDeque;
+use std::time::Instant;
+
+/// One series of frames.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shot {
+    /// What moves the camera.
+    pub cause: Cause,
+    /// How far it is, as a multiple of what the scene says.
+    pub distance: f64,
+}
+
+impl Shot {
+    /// Returns the camera of a frame, with `side` x `side` pixels for each pixel of the scene.
+    #[must_use]
+    pub fn camera(&self, scene: &Scene, frame: u32, side: u32) -> Camera {
+        let resolution = scene.file.resolution.map(|pixels| pixels * side);
+        scene.file.camera.camera(f64::from(frame), self.cause, self.distance, resolution)
+    }
+}
+
+/// Returns the shots of a scene: as it is; with each of several causes of motion alone; from each other distance.
+#[must_use]
+pub fn shots(scene: &Scene) -> Vec<Shot> {
+    let mut shots = vec![Shot { cause: Cause::All, distance: 1.0 }];
+    let causes = scene.file.camera.motion.map(|motion| motion.causes()).unwrap_or_default();
+    if causes.len() > 1 && scene.file.frames.get() > 1 {
+        shots.extend(causes.into_iter().map(|cause| Shot { cause, distance: 1.0 }));
+    }
+    let factors = scene.file.distance.iter().flat_map(|distance| &distance.factors);
+    shots.extend(factors.map(|&distance| Shot { cause: Cause::All, distance }));
+    shots
+}
+
+/// What became of one take.
+#[derive(Clone, Debug)]
+pub struct Take {
+    /// What it did.
+    pub plan: Plan,
+    /// What it counted over all shots.
+    pub cost: Cost,
+    /// What was measured.
+    pub metrics: Metrics,
+    /// The mean of the first shot's frames.
+    pub mean: Picture,
+    /// The first frame of every shot with all motion: the scene as it is, and from each other distance.
+    pub first: Vec<Picture>,
+    /// The frame after the first, where there is one.
+    pub second: Option<Picture>,
+    /// The first shot, frame by frame.
+    pub sequence: Vec<RgbImage>,
+    /// Time that its frames took, in seconds.
+    pub seconds: f64,
+}
+
+/// What became of a scene.
+#[derive(Clone, Debug)]
+pub struct Study {
+    /// Its takes, in the order of the file.
+    pub takes: Vec<Take>,
+    /// The first frame of every shot as it should be, if the scene asks for that.
+    pub truth: Option<Vec<Picture>>,
+    /// What the truth cost.
+    pub truth_cost: Cost,
+    /// What was expected, and whether it came out.
+    pub checked: Vec<Checked>,
+}
+
+/// Returns the effects of every take; where the scene leaves them to the planner, its choice with the reasons.
+#[must_use]
+pub fn chosen(scene: &Scene, textures: &[Texture]) -> Vec<(Effects, Vec<String>)> {
+    match &scene.file.effects {
+        Takes::Sets(sets) => sets.iter().map(|effects| (effects.clone(), Vec::new())).collect(),
+        Takes::Auto => {
+            let choice = auto::choose(scene, textures);
+            vec![(choice.effects, choice.reasons)]
+        }
+    }
+}
+
+/// Draws everything. `progress` is told after every picture how many are done and how many there are.
+#[must_use]
+pub fn study(scene: &Scene, progress: &mut dyn FnMut(u64, u64)) -> Study {
+    let plans: Vec<Plan> = match &scene.file.effects {
+        Takes::Sets(sets) => sets.iter().map(plan).collect(),
+        Takes::Auto => vec![plan(&auto::choose(scene, &scene.textures(false)).effects)],
+    };
+    // One set of textures for all plans that need the same of them.
+    let of_truth = TextureNeeds { premultiplied: true, ..TextureNeeds::default() };
+    let mut covers: Vec<(TextureNeeds, Vec<Texture>)> = Vec::new();
+    for needs in plans.iter().map(|plan| plan.textures).chain(scene.file.truth.as_ref().map(|_| of_truth)) {
+        if !covers.iter().any(|(known, _)| *known == needs) {
+            covers.push((needs, textures(scene, needs)));
+        }
+    }
+    let find = |needs: TextureNeeds| -> &[Texture] {
+        covers.iter().find(|(known, _)| *known == needs).map_or(&[], |(_, textures)| textures)
+    };
+    let shots = shots(scene);
+    let frames = scene.file.frames.get();
+    let per_frame = plans.len() as u64 + u64::from(scene.file.truth.is_some());
+    let total = shots.len() as u64 * u64::from(frames) * per_frame;
+    let mut done = 0;
+    let mut truths: Option<Vec<Picture>> = scene.file.truth.as_ref().map(|_| Vec::new());
+    let mut truth_cost = Cost::default();
+    let mut takes: Vec<(Take, Measured)> =
+        plans.into_iter().map(|plan| (Take::new(plan), Measured::default())).collect();
+    for shot in &shots {
+        let mut histories = vec![(None, VecDeque::new()); takes.len()];
+        takes.iter_mut().for_each(|(_, measured)| measured.begin());
+        for index in 0..frames {
+            let truth = scene.file.truth.as_ref().map(|truth| {
+                let (picture, cost) = truth::frame(scene, find(of_truth), shot, index, truth.samples.get());
+                truth_cost += cost;
+                done += 1;
+                progress(done, total);
+                picture
+            });
+            for ((take, measured), history) in takes.iter_mut().zip(&mut histories) {
+                take.draw(scene, find(take.plan.textures), shot, index, history, measured, truth.as_ref());
+                done += 1;
+                progress(done, total);
+            }
+            if let (Some(truths), Some(truth), 0, Cause::All) = (&mut truths, truth, index, shot.cause) {
+                truths.push(truth);
+            }
+        }
+        for (take, measured) in &mut takes {
+            measured.end(shot, &mut take.metrics);
+        }
+    }
+    let takes: Vec<Take> = takes.into_iter().map(|(take, measured)| take.finish(&measured)).collect();
+    let checked = scene.file.expect.iter().map(|expectation| check(expectation, &takes)).collect();
+    Study { takes, truth: truths, truth_cost, checked }
+}
+
+impl Study {
+    /// Returns the picture of the scene: the first frames of the takes side by side with the truth last, a row for each shot
+    /// that differs in distance; enlarged insets; and the differences of the first two frames, inverted.
+    #[must_use]
+    pub fn sheet(&self, inset: Option<&Inset>) -> RgbImage {
+        let truths = self.truth.as_deref().unwrap_or_default();
+        let shots = self.takes.iter().map(|take| take.first.len()).max().unwrap_or(0);
+        let images = |shot: usize| -> Vec<RgbImage> {
+            let takes = self.takes.iter().map(|take| &take.first);
+            takes.filter_map(|first| first.get(shot)).chain(truths.get(shot)).map(Picture::to_rgb).collect()
+        };
+        let mut rows: Vec<Vec<RgbImage>> = (0..shots).map(images).collect();
+        if let (Some(inset), Some(first)) = (inset, rows.first()) {
+            let large = first.iter().map(|image| picture::enlarge(image, inset)).collect();
+            rows.insert(1, large);
+        }
+        let differences: Vec<RgbImage> = self.takes.iter().filter_map(Take::difference).collect();
+        if !differences.is_empty() {
+            rows.push(differences);
+        }
+        picture::sheet(&rows)
+    }
+}
+
+impl Take {
+    fn new(plan: Plan) -> Self {
+        Self {
+            plan,
+            cost: Cost::default(),
+            metrics: Metrics::default(),
+            mean: Picture::default(),
+            first: Vec::new(),
+            second: None,
+            sequence: Vec::new(),
+            seconds: 0.0,
+        }
+    }
+
+    #[allow(clippy::too_many_arguments)]
+    fn draw(
+        &mut self,
+        scene: &Scene,
+        textures: &[Texture],
+        shot: &Shot,
+        index: u32,
+        (average, last): &mut (Option<Picture>, VecDeque<Picture>),
+        measured: &mut Measured,
+        truth: Option<&Picture>,
+    ) {
+        let begun = Instant::now();
+        let mut frame = run::frame(scene, textures, &self.plan, shot, index);
+        for stage in &self.plan.stages {
+            let pixels = frame.picture.coverage.len() as u64;
+            match stage {
+                Stage::History(table) => {
+                    if let Some(before) = average {
+                        frame.picture = temporal::accumulate(before, &frame.picture, table);
+                    }
+                    *average = Some(frame.picture.clone());
+                    frame.cost.blends += pixels;
+                }
+                Stage::Average(frames) => {
+                    last.push_back(frame.picture);
+                    if last.len() > frames.get() as usize {
+                        last.pop_front();
+                    }
+                    frame.picture = Picture::mean(last.iter());
+                    frame.cost.blends += pixels;
+                }
+                _ => {}
+            }
+        }
+        self.seconds += begun.elapsed().as_secs_f64();
+        self.cost += frame.cost;
+        let is_first_shot = measured.is_first_shot();
+        if is_first_shot {
+            self.sequence.push(frame.picture.to_rgb());
+        }
+        match index {
+            0 if shot.cause == Cause::All => self.first.push(frame.picture.clone()),
+            1 if is_first_shot => self.second = Some(frame.picture.clone()),
+            _ => {}
+        }
+        measured.add(&frame, truth, scene.file.layers.is_some());
+    }
+
+    fn finish(mut self, measured: &Measured) -> Self {
+        self.mean = measured.mean_of_first_shot();
+        self
+    }
+
+    /// Returns the inverted difference of the first two frames; `None` for a still.
+    #[must_use]
+    pub fn difference(&self) -> Option<RgbImage> {
+        Some(picture::difference(self.first.first()?, self.second.as_ref()?))
+    }
+}
