@@ -7,6 +7,7 @@
 //! | [`scene_files`] | what a typed scene means |
 //! | [`subjects`] | what a typed subject means, and where it runs |
 //! | [`rows`] | footprints as comma-separated text, read and written |
+//! | [`drivers`] | keeps drivers from writing to stderr |
 //! | [`known`] | the TOML list of known findings |
 //! | [`output`] | the two streams: results on stdout, remarks on stderr |
 //! | [`failure`] | everything that ends a job early, as one message |
@@ -16,6 +17,7 @@
 mod args;
 mod check;
 mod compare;
+mod drivers;
 mod eval;
 mod explain;
 mod failure;
