@@ -480,14 +480,8 @@ impl Plan {
                     (options.variant, options.hash) = (robust.variant, robust.hash);
                     options.hash_scale = Some(robust.hash_scale as f32);
                 }
-                Stage::Stratify(_, order) if !matches!(order, Order::Ascending | Order::Alternating) => {
-                    return Ok(None);
-                }
                 Stage::Stratify(frames, order) => {
-                    options.stratify = Some(assemble::Stratify {
-                        frames: short(frames),
-                        alternating: *order == Order::Alternating,
-                    });
+                    options.stratify = Some(assemble::Stratify { frames: short(frames), order: *order });
                 }
                 Stage::Coverage(_, Pattern::Independent) => return Ok(None),
                 Stage::Coverage(samples, Pattern::Regular) => {
