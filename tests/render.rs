@@ -78,8 +78,12 @@ fn every_scene_shows_what_it_must() {
         assert!(scene.file.sentence.is_some(), "{}", entry.name);
         assert!(!scene.file.expect.is_empty(), "{} expects nothing", entry.name);
         let study = drawn(&scene);
-        let wrong: Vec<&str> =
-            study.checked.iter().filter(|checked| !checked.holds).map(|checked| checked.text.as_str()).collect();
+        let wrong: Vec<&str> = study
+            .checked
+            .iter()
+            .filter(|checked| !checked.holds)
+            .map(|checked| checked.text.as_str())
+            .collect();
         assert!(wrong.is_empty(), "{}: {wrong:#?}", entry.name);
     }
 }
@@ -156,7 +160,11 @@ fn shader_text_has_the_chunks_of_its_stages_only() {
     for (with, chunk, without) in [
         ("hashed = {}\nfade_in = {}", "fn fade_in", "hashed = {}"),
         ("hashed = {}\ntemporal = { frames = 8 }", "fn stratified", "hashed = {}"),
-        ("robust = {}\nalpha_to_coverage = { samples = 4, pattern = 'decorrelated' }", "fn fragment_pair", "robust = {}"),
+        (
+            "robust = {}\nalpha_to_coverage = { samples = 4, pattern = 'decorrelated' }",
+            "fn fragment_pair",
+            "robust = {}",
+        ),
         ("robust = { variant = 'anisotropic' }", "fn robust", "fixed = {}"),
         ("hashed = {}", "fn hash", "stochastic = {}"),
     ] {
@@ -195,7 +203,8 @@ fn a_threshold_takes_as_many_hashes_as_its_plan_says() {
             let count = AtomicU64::new(0);
             let preset = Robust { join, ..Robust::new(variant) };
             let Robust { hash_scale, repairs, .. } = preset;
-            let counting = Robust { variant, hash: Counting(HashKind::Mm4, &count), hash_scale, join, repairs };
+            let counting =
+                Robust { variant, hash: Counting(HashKind::Mm4, &count), hash_scale, join, repairs };
             counting.threshold(&footprint).expect("a finite footprint");
             assert_eq!(count.load(Ordering::Relaxed), hashes(&Model::Robust(preset)), "{variant} {join}");
         }
