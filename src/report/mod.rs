@@ -6,6 +6,7 @@
 //! | [`json`] | `cli` | one JSON object a claim |
 //! | [`text`] | `cli` | the table for a terminal, one line a claim |
 //! | [`html`] | `cli` | one page that needs nothing but the pictures beside it |
+//! | [`study`] | `cli` | plans, counts and numbers of scenes as text, CSV and JSON |
 //! | [`directory`] | `cli` | all of that as files |
 //!
 //! What lives here takes what others found out and shows it. What never will: statistics, verdicts, thresholds of its
@@ -20,6 +21,8 @@ pub mod figure;
 pub mod html;
 #[cfg(feature = "cli")]
 pub mod json;
+#[cfg(feature = "cli")]
+pub mod study;
 #[cfg(feature = "cli")]
 pub mod text;
 
