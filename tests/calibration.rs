@@ -1,7 +1,7 @@
 //! The battery on the ideal source, once for each of many keys and seeds: no run rejects anything, and the p-values of
 //! every claim are what they say.
 //!
-//! Eight runs at [`Budget::Quick`]; `HASHED_ALPHA_BUDGET=nightly` makes it a thousand, `quick` four, and
+//! Six runs at [`Budget::Quick`]; `HASHED_ALPHA_BUDGET=nightly` makes it a thousand, `quick` three, and
 //! `HASHED_ALPHA_RUNS` any other number. With `HASHED_ALPHA_BLESS=all` the table goes to `docs/calibration.md`.
 
 mod budget;

@@ -338,20 +338,24 @@ pub const WAVE: [f64; 3] = [1.3, 0.9, -0.7];
 /// Points that are followed for one cell of the table of coordinates: a share is known to a hundredth.
 pub const TABLE_POINTS: usize = 1 << 11;
 
+/// The largest change of a threshold that the change of its scale may explain in that table: two thresholds that have
+/// nothing to do with each other are nearer than this in one case of four.
+pub const EXPLAINED: f64 = 0.125;
+
 /// Points of a claim that allows not one change.
 pub const EXACT_POINTS: usize = 1 << 12;
 
-/// Frames at which a static threshold is asked: neighbours, powers of two, the last one.
+/// Frames at which a static threshold is asked: neighbours, powers of two, the last one; or as many periods.
 pub const FRAMES: [u32; 6] = [0, 1, 2, 7, 1024, u32::MAX];
 
 /// What roundings of `f32` leave between two thresholds of one point in different strata: the sum, the part after the
 /// point and the clamp at 2^-24.
 pub const STRATUM_ROUNDING: f64 = 1.0 / 4_194_304.0;
 
-/// Pixels by which the image moves from frame to frame where the noise of one pixel is followed.
+/// Pixels by which the image moves in a frame or period where the noise of one pixel is followed.
 pub const DRIFT: f64 = 0.15;
 
-/// Frames between two thresholds of one pixel: within the fine cell, across it, and beyond the coarse one.
+/// Frames or periods between two thresholds of one pixel: within the fine cell, across it, and beyond the coarse one.
 pub const FRAME_LAGS: [u32; 4] = [1, 2, 5, 16];
 
 /// Points at each lag and of each exponential average: a correlation of 0.05 shows.

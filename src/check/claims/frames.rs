@@ -15,11 +15,12 @@ use crate::scene::Fragment;
 use crate::stats::normal;
 use std::collections::HashMap;
 
-/// A threshold that does not spread over frames does not know them.
+/// A threshold knows of the frame where it stands among those over which it spreads, and a static one nothing.
 pub const STATIC: Claim = Claim {
     id: "frames.static",
-    anchor: "§5 (stable over time)",
-    statement: "the threshold of a point is the same in every frame, bit for bit",
+    anchor: "§5 (stable over time), §7.2.3",
+    statement: "the threshold of a point is the same in every frame, bit for bit; one that spreads over n frames has the same \
+                again n frames later",
     expected: Verdict::Consistent,
     promise: Some(Promise::Linear(8.0e-3)),
     run: unchanging,
@@ -40,8 +41,8 @@ pub const STRATIFIED: Claim = Claim {
 pub const SERIAL: Claim = Claim {
     id: "frames.serial",
     anchor: "§5 (sub-pixel translations); closed form not in the paper",
-    statement: "while a surface moves by 0.15 pixels a frame, the thresholds of one pixel are correlated from frame to \
-                frame as the size of the cells predicts",
+    statement: "while a surface moves by 0.15 pixels a frame, or in the n frames over which thresholds spread, the thresholds \
+                of one pixel are correlated from one time to the next as the size of the cells predicts",
     expected: Verdict::Consistent,
     promise: Some(Promise::Root(0.15)),
     run: serial,
@@ -58,7 +59,9 @@ pub const AVERAGE: Claim = Claim {
     run: average,
 };
 
-fn not_applicable(reason: &str) -> Attempt<Trial> {
+/// The end of a claim about strata where there are none.
+fn no_strata() -> Attempt<Trial> {
+    let reason = "the subject does not claim to spread its thresholds over frames";
     Ok(Trial::without(Conclusion::NotApplicable, reason))
 }
 
@@ -68,11 +71,10 @@ fn in_frame(subject: &Subject<'_>, points: &[Fragment], frame: u32) -> Vec<f64> 
 }
 
 fn unchanging(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
-    if subject.frames != 1 {
-        return not_applicable("the subject claims to spread its thresholds over frames");
-    }
     let points = fragments(subject, draw, STATIC.id);
-    let [first, others @ ..] = FRAMES.map(|frame| in_frame(subject, &points, frame));
+    // Whole periods from the first frame, as far as frames can be counted.
+    let periods = FRAMES.map(|frame| frame.min(u32::MAX / subject.frames) * subject.frames);
+    let [first, others @ ..] = periods.map(|frame| in_frame(subject, &points, frame));
     let (different, told) = differing(&points, &first, &others);
     Ok(trial(points.len(), different, told, "in another frame"))
 }
@@ -86,8 +88,6 @@ fn period(subject: &Subject<'_>, points: &[Fragment], from: u32) -> Attempt<Vec<
     frames.collect()
 }
 
-const IS_STATIC: &str = "the subject does not claim to spread its thresholds over frames";
-
 fn general_points(subject: &Subject<'_>, n: usize, draw: &Draw, claim: &str) -> Vec<Fragment> {
     let mut rng = draw.rng(claim);
     let scenes = general_scenes();
@@ -100,7 +100,7 @@ fn general_points(subject: &Subject<'_>, n: usize, draw: &Draw, claim: &str) -> 
 
 fn stratified(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     if subject.frames == 1 {
-        return not_applicable(IS_STATIC);
+        return no_strata();
     }
     let points = general_points(subject, draw.samples(FRAME_POINTS / 8), draw, STRATIFIED.id);
     let stratum = 1.0 / f64::from(subject.frames);
@@ -202,9 +202,6 @@ fn worst_mean(means: &[Mean], n: usize, effect_name: &'static str, axes: [&'stat
 }
 
 fn serial(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
-    if subject.frames != 1 {
-        return not_applicable("the subject claims to spread its thresholds over frames");
-    }
     let mut rng = draw.rng(SERIAL.id);
     let n = draw.samples(FRAME_POINTS);
     let mut means = Vec::new();
@@ -220,7 +217,7 @@ fn serial(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
                 // The same pixel, where another point of the surface has come.
                 let there = here.moved(motion, subject.precision).fragment;
                 before.push(here.fragment);
-                after.push(Fragment { pixel: here.fragment.pixel, frame: lag, ..there });
+                after.push(Fragment { pixel: here.fragment.pixel, frame: lag * subject.frames, ..there });
             }
             let (old, new) = (subject.thresholds(&before), subject.thresholds(&after));
             reject_outsiders(&before, &old)?;
@@ -265,7 +262,7 @@ fn variance(order: &[u32], weights: &[f64], alpha: f64) -> f64 {
 
 fn average(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     if subject.frames == 1 {
-        return not_applicable(IS_STATIC);
+        return no_strata();
     }
     let n = draw.samples(FRAME_POINTS);
     let points = general_points(subject, n, draw, AVERAGE.id);

@@ -37,13 +37,15 @@ pub(super) const FAMILY: &[Specimen] = &[
     },
     Specimen {
         name: "case-by-lerp-factor",
-        defect: "the case of Eq. 2 is chosen by the lerp factor and not by the interpolated value",
+        defect: "the first case of Eq. 2 is chosen by the lerp factor and not by the interpolated value: it never is",
         mend: "compare the interpolated value with a and 1 - a",
         claim: "uniform.marginal",
         subject: || {
             with(|x, t| {
                 let a = minor_weight(t);
-                picked(cases(x, a), t, a)
+                let [low, middle, high] = cases(x, a);
+                let first = if t < a { low } else { middle };
+                picked([first, middle, high], x, a)
             })
         },
     },

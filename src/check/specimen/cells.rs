@@ -2,7 +2,7 @@
 
 use super::Specimen;
 use super::port::{Port, SOUND, cut, ideal_hash};
-use crate::threshold::hash::sine::hash_2d;
+use crate::threshold::hash::sine::{hash_2d, hash_3d};
 use glam::DVec3;
 
 /// Listing 1 with cells of its own.
@@ -13,6 +13,12 @@ const fn cut_by(cell: fn(DVec3, i32) -> [f64; 3]) -> Port {
 /// Listing 1 over the ideal source of other indices.
 const fn seeing(hash: fn([f64; 3], i32) -> f64) -> Port {
     Port { hash, ..SOUND }
+}
+
+/// Hashes two coordinates into 4096 values, and those with the third.
+fn by_few_values([first, second]: [f64; 2], third: f64, octave: i32) -> f64 {
+    let value = (ideal_hash([first, second, 0.0], 0) * 4096.0).floor();
+    ideal_hash([value, 0.0, third], octave)
 }
 
 fn is_odd(index: f64) -> bool {
@@ -29,26 +35,27 @@ pub(super) const FAMILY: &[Specimen] = &[
     },
     Specimen {
         name: "nearest-cell",
-        defect: "coordinates are rounded to the nearest whole number, so fine cells do not divide coarse ones",
+        defect: "a half is added before a cast to an integer, so fine cells do not divide coarse ones, and those at zero are \
+                 twice as wide",
         mend: "round down with floor",
         claim: "exact.cells",
         subject: || {
-            cut_by(|position, octave| (position * libm::ldexp(1.0, octave)).to_array().map(libm::round))
-                .subject()
+            cut_by(|position, octave| {
+                (position * libm::ldexp(1.0, octave)).to_array().map(|c| libm::trunc(c + 0.5))
+            })
+            .subject()
         },
     },
     Specimen {
         name: "no-floor",
-        defect: "the scaled position is hashed without rounding it down, so every move redraws every threshold",
+        defect: "the scaled position goes into the paper's hash without being rounded down, so every move redraws every \
+                 threshold",
         mend: "round down with floor",
-        claim: "stability.translate",
+        claim: "spectrum.radial",
         subject: || {
             Port {
                 cell: |position, octave| (position * libm::ldexp(1.0, octave)).into(),
-                hash: |position, octave| {
-                    let words = position.map(|c| (c.to_bits() ^ (c.to_bits() >> 32)) as u32);
-                    ideal_hash(words.map(f64::from), octave)
-                },
+                hash: |position, _| hash_3d::<f64>(position.into()),
                 ..SOUND
             }
             .subject()
@@ -102,17 +109,25 @@ pub(super) const FAMILY: &[Specimen] = &[
         subject: || seeing(|[x, y, _], _| hash_2d(x, y)).subject(),
     },
     Specimen {
+        name: "few-values-of-y-and-z",
+        defect: "y and z are hashed into 4096 values before x comes in, so each plane of constant x has a bias",
+        mend: "keep all bits of the first hash for the second, or use an integer hash",
+        claim: "uniform.constant_x",
+        subject: || seeing(|[x, y, z], octave| by_few_values([y, z], x, octave)).subject(),
+    },
+    Specimen {
+        name: "few-values-of-z-and-x",
+        defect: "z and x are hashed into 4096 values before y comes in, so each plane of constant y has a bias",
+        mend: "keep all bits of the first hash for the second, or use an integer hash",
+        claim: "uniform.constant_y",
+        subject: || seeing(|[x, y, z], octave| by_few_values([z, x], y, octave)).subject(),
+    },
+    Specimen {
         name: "few-values-of-x-and-y",
         defect: "x and y are hashed into 4096 values before z comes in, so each plane of constant z has a bias",
         mend: "keep all bits of the first hash for the second, or use an integer hash",
         claim: "uniform.constant_z",
-        subject: || {
-            seeing(|[x, y, z], octave| {
-                let first = (ideal_hash([x, y, 0.0], 0) * 4096.0).floor();
-                ideal_hash([first, 0.0, z], octave)
-            })
-            .subject()
-        },
+        subject: || seeing(|[x, y, z], octave| by_few_values([x, y], z, octave)).subject(),
     },
     Specimen {
         name: "lowest-bit-dropped",

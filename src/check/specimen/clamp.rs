@@ -33,10 +33,10 @@ pub(super) const FAMILY: &[Specimen] = &[
     },
     Specimen {
         name: "clamped-below-opaque",
-        defect: "thresholds are no larger than 254/255, so that opaque texels are surely kept",
+        defect: "thresholds are no larger than 0.98, so that nearly opaque texels are surely kept",
         mend: "clamp to 1: alpha 1 is kept at a threshold of 1",
         claim: "atoms.ends",
-        subject: || ending(|threshold| threshold.clamp(1.0e-6, 254.0 / 255.0)),
+        subject: || ending(|threshold| threshold.clamp(1.0e-6, 0.98)),
     },
     Specimen {
         name: "safe-middle",

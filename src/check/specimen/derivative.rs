@@ -32,7 +32,7 @@ pub(super) const FAMILY: &[Specimen] = &[
         name: "dfdx-twice",
         defect: "the derivative along screen x stands in for the one along y",
         mend: "take dFdy for the second derivative",
-        claim: "stability.translate",
+        claim: "spectrum.anisotropy",
         subject: || {
             Port { read: |at| Footprint { dpdy: at.footprint.dpdx, ..at.footprint }, ..SOUND }.subject()
         },
@@ -41,14 +41,14 @@ pub(super) const FAMILY: &[Specimen] = &[
         name: "fwidth",
         defect: "the length of fwidth, |dFdx| + |dFdy|, stands in for the longer of the two derivatives",
         mend: "take max(length(dFdx), length(dFdy))",
-        claim: "stability.translate",
+        claim: "flips.rotation",
         subject: || of_length(|x, y| (x.abs() + y.abs()).length()),
     },
     Specimen {
         name: "length-of-sum",
         defect: "the length of the sum of the derivatives stands in for the longer of the two",
         mend: "take max(length(dFdx), length(dFdy))",
-        claim: "stability.translate",
+        claim: "symmetry.derivatives",
         subject: || of_length(|x, y| (x + y).length()),
     },
     Specimen {
@@ -62,14 +62,14 @@ pub(super) const FAMILY: &[Specimen] = &[
         name: "min-for-max",
         defect: "the shorter of the two derivatives counts, so cells are smaller than a pixel at grazing angles",
         mend: "take max(length(dFdx), length(dFdy))",
-        claim: "stability.translate",
+        claim: "flips.tilt",
         subject: || of_length(|x, y| x.length().min(y.length())),
     },
     Specimen {
         name: "area-of-a-pixel",
         defect: "the root of the pixel's area on the surface stands in for its longer side",
         mend: "take max(length(dFdx), length(dFdy))",
-        claim: "stability.translate",
+        claim: "noise_scale.tilted",
         subject: || of_length(|x, y| x.cross(y).length().sqrt()),
     },
     Specimen {
@@ -83,7 +83,7 @@ pub(super) const FAMILY: &[Specimen] = &[
         name: "derivative-without-z",
         defect: "only x and y of the derivatives are measured",
         mend: "take length() of all three components",
-        claim: "stability.translate",
+        claim: "stability.translate_aligned",
         subject: || of_length(|x, y| x.truncate().length().max(y.truncate().length())),
     },
     Specimen {
@@ -104,7 +104,7 @@ pub(super) const FAMILY: &[Specimen] = &[
         name: "half-the-noise",
         defect: "cells are half as large as the hash scale says, as if it were a radius",
         mend: "let one cell be hash scale pixels wide",
-        claim: "stability.translate",
+        claim: "noise_scale.frontal",
         subject: || of_scale(Variant::Isotropic, 0.5, 1.0),
     },
     Specimen {
@@ -112,14 +112,14 @@ pub(super) const FAMILY: &[Specimen] = &[
         defect: "the noise is one pixel wide whatever the hash scale",
         mend: "multiply the derivative by the hash scale",
         claim: "stability.translate",
-        subject: || of_scale(Variant::Isotropic, 1.0, 2.0),
+        subject: || of_scale(Variant::Isotropic, 1.0, 0.5),
     },
     Specimen {
         name: "hash-scale-divides",
-        defect: "the hash scale divides the derivative, so a larger one gives finer noise",
+        defect: "the hash scale divides the derivative, so a smaller one gives coarser noise",
         mend: "multiply the derivative by the hash scale",
         claim: "stability.translate",
-        subject: || of_scale(Variant::Isotropic, 0.5, 2.0),
+        subject: || of_scale(Variant::Isotropic, 2.0, 0.5),
     },
     Specimen {
         name: "missing-sqrt-half",

@@ -79,13 +79,14 @@ pub(super) const FAMILY: &[Specimen] = &[
     },
     Specimen {
         name: "one-round-of-xorshift",
-        defect: "one round of xorshift follows a sum of shifted coordinates: it is linear, and neighbours differ in fixed bits",
+        defect: "one round of xorshift follows the coordinates, shifted and joined, without the octave: it is linear, and \
+                 neighbours differ in fixed bits",
         mend: "use a hash that mixes all bits, as murmur3 or pcg4d",
         claim: "independence.neighbours",
         subject: || {
             hashed_by(|index, octave| {
-                let [x, y, z, w] = words(index, octave);
-                open_lattice(xorshift(x ^ y.rotate_left(8) ^ z.rotate_left(16) ^ w.rotate_left(24)))
+                let [x, y, z, _] = words(index, octave);
+                open_lattice(xorshift(x ^ y.rotate_left(8) ^ z.rotate_left(16)))
             })
             .subject()
         },

@@ -1,9 +1,12 @@
 //! Hashed from other coordinates than the object's.
 
 use super::Specimen;
-use super::port::{Port, SOUND};
+use super::port::{Port, SOUND, ideal_hash};
+use crate::check::Subject;
+use crate::check::subject::Precision;
 use crate::scene::Fragment;
 use crate::threshold::footprint::Footprint;
+use crate::threshold::two_scale::Variant;
 use glam::DVec3;
 
 /// Listing 1 at another position, with the derivatives as they are.
@@ -16,21 +19,21 @@ pub(super) const FAMILY: &[Specimen] = &[
         name: "screen-space",
         defect: "the pixel is hashed, so the noise stays on the screen while the object moves",
         mend: "hash the position in object coordinates",
-        claim: "stability.translate",
+        claim: "frames.serial",
         subject: || reading(|at| Footprint { position: at.pixel.extend(0.0), ..at.footprint }).subject(),
     },
     Specimen {
         name: "eye-space",
         defect: "the position in eye coordinates is hashed, so the object swims through its noise as the camera moves",
         mend: "hash the position in object coordinates",
-        claim: "stability.translate",
+        claim: "coordinates.object",
         subject: || reading(|at| Footprint { position: at.eye, ..at.footprint }).subject(),
     },
     Specimen {
         name: "world-space",
         defect: "the position in world coordinates is hashed, so a moving object swims through its noise",
         mend: "hash the position in object coordinates",
-        claim: "exact.cells",
+        claim: "flips.skinning",
         subject: || reading(|at| Footprint { position: at.world, ..at.footprint }).subject(),
     },
     Specimen {
@@ -39,6 +42,20 @@ pub(super) const FAMILY: &[Specimen] = &[
         mend: "hash the position in object coordinates",
         claim: "uniform.marginal",
         subject: || reading(|at| Footprint { position: at.texcoord.extend(0.0), ..at.footprint }).subject(),
+    },
+    Specimen {
+        name: "tiled-texture-of-noise",
+        defect: "a texture of noise is repeated eight times over the texture coordinates, and has no mip levels",
+        mend: "hash the position in object coordinates, in cells as large as a pixel",
+        claim: "independence.octaves",
+        subject: || {
+            let texel = |at: &Fragment| {
+                let tile = at.texcoord * 8.0;
+                let [x, y] = ((tile - tile.floor()) * 1024.0).floor().to_array();
+                ideal_hash([x, y, 0.0], 0)
+            };
+            Subject::of_fragments("specimen", Precision::F64, Variant::Isotropic, texel)
+        },
     },
     Specimen {
         name: "one-threshold-an-object",

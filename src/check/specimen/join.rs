@@ -22,17 +22,16 @@ fn fraction(value: f64) -> f64 {
     value - value.floor()
 }
 
-/// A dithered threshold whose choice and cells have octaves of their own.
-fn dithered(salt: fn(&Footprint<f64>, i32) -> [i32; 3]) -> Subject<'static> {
+/// A dithered threshold that draws its choice with a salt.
+fn dithered(salt: fn(&Footprint<f64>) -> i32) -> Subject<'static> {
     let mut subject = of_footprint(Precision::F64, move |found| {
         let scales = scales::scales::<f64>(Variant::Isotropic, found, 1.0, Repairs::ALL);
         let (octave, fraction) = (scales.octave[0], scales.fraction[0]);
-        let [coarse, fine, choice] = salt(found, octave);
-        let coarse_cell = cell(found.position, octave);
-        if fraction > ideal_hash(coarse_cell, choice) {
-            ideal_hash(cell(found.position, octave + 1), fine)
+        let coarse = cell(found.position, octave);
+        if fraction > ideal_hash(coarse, salt(found)) {
+            ideal_hash(cell(found.position, octave + 1), octave + 1)
         } else {
-            ideal_hash(coarse_cell, coarse)
+            ideal_hash(coarse, octave)
         }
     });
     subject.join = Join::Dithered;
@@ -42,9 +41,9 @@ fn dithered(salt: fn(&Footprint<f64>, i32) -> [i32; 3]) -> Subject<'static> {
 pub(super) const FAMILY: &[Specimen] = &[
     Specimen {
         name: "sum-that-wraps",
-        defect: "the two hashes are added and the fraction taken: uniform, and redrawn at every octave",
+        defect: "the two hashes are added and the fraction taken: uniform, and whatever changes one of them redraws it",
         mend: "interpolate between the hashes, and apply the CDF",
-        claim: "continuity.octave_boundary",
+        claim: "flips.translation",
         subject: || joined(|[coarse, fine], _| fraction(coarse + fine), true).subject(),
     },
     Specimen {
@@ -116,21 +115,14 @@ pub(super) const FAMILY: &[Specimen] = &[
         },
     },
     Specimen {
-        name: "dither-salted-by-role",
-        defect: "the dither is told which of the two cells it draws and not which octave: thresholds switch at every octave",
-        mend: "hash the octave of the cell, not its role",
-        claim: "continuity.octave_boundary",
-        subject: || dithered(|_, _| [0, 1, 2]),
-    },
-    Specimen {
         name: "dither-drawn-anew",
         defect: "the choice between octaves is drawn anew with every view, so thresholds flicker as the camera moves",
         mend: "draw the choice from the coarse cell",
-        claim: "continuity.zoom",
+        claim: "flips.zoom",
         subject: || {
-            dithered(|found, octave| {
+            dithered(|found| {
                 let view = found.dpdy.x.to_bits() ^ found.dpdy.y.to_bits().rotate_left(17);
-                [octave, octave + 1, (view ^ (view >> 32)) as i32]
+                (view ^ (view >> 32)) as i32
             })
         },
     },
@@ -138,7 +130,7 @@ pub(super) const FAMILY: &[Specimen] = &[
         name: "one-weight-for-three-scales",
         defect: "one weight joins three scales: when one axis passes an octave, both cells of Listing 2 are exchanged",
         mend: "mix the eight corners with a weight an axis, by the copula",
-        claim: "continuity.zoom",
+        claim: "continuity.rotation",
         subject: || {
             let robust = Robust { join: Join::Interpolate, ..robust(Variant::Anisotropic) };
             Subject::robust("specimen", Precision::F64, robust)
@@ -150,13 +142,14 @@ pub(super) const FAMILY: &[Specimen] = &[
         mend: "divide by sqrt of the sum of squared weights before the normal CDF",
         claim: "uniform.by_lerp_factor",
         subject: || {
-            joined(
-                |[coarse, fine], t| {
-                    normal_cdf((1.0 - t) * normal_quantile(coarse) + t * normal_quantile(fine))
-                },
-                true,
-            )
-            .subject()
+            let mut subject = of_footprint(Precision::F64, |found| {
+                let scales = scales::scales::<f64>(Variant::Isotropic, found, 1.0, Repairs::ALL);
+                let (octave, t) = (scales.octave[0], scales.fraction[0]);
+                let normal = |octave: i32| normal_quantile(ideal_hash(cell(found.position, octave), octave));
+                normal_cdf((1.0 - t) * normal(octave) + t * normal(octave + 1))
+            });
+            subject.join = Join::Copula;
+            subject
         },
     },
     Specimen {

@@ -4,6 +4,7 @@
 //! keeps the claims honest, and tells the author of a rejected threshold what theirs looks like
 //! ([`diagnosis`](super::diagnosis)).
 
+mod bias;
 mod cdf;
 mod cells;
 mod clamp;
@@ -46,7 +47,7 @@ impl fmt::Debug for Specimen {
 }
 
 /// The specimens, family by family.
-const FAMILIES: [&[Specimen]; 11] = [
+const FAMILIES: [&[Specimen]; 12] = [
     input::FAMILY,
     derivative::FAMILY,
     octave::FAMILY,
@@ -56,6 +57,7 @@ const FAMILIES: [&[Specimen]; 11] = [
     join::FAMILY,
     cdf::FAMILY,
     clamp::FAMILY,
+    bias::FAMILY,
     repair::FAMILY,
     frame::FAMILY,
 ];

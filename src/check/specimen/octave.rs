@@ -43,15 +43,8 @@ pub(super) const FAMILY: &[Specimen] = &[
         name: "coarser-for-finer",
         defect: "the second cell is one octave coarser than the first, and not one finer",
         mend: "take the ceiling of the logarithm for the second octave",
-        claim: "stability.translate",
+        claim: "spectrum.autocorrelation",
         subject: || between(|octave, t| ([octave, octave - 1], t)).subject(),
-    },
-    Specimen {
-        name: "octaves-one-too-fine",
-        defect: "both octaves are one finer than the scale asks for",
-        mend: "take the floor and the ceiling of the logarithm",
-        claim: "stability.translate",
-        subject: || between(|octave, t| ([octave + 1, octave + 2], t)).subject(),
     },
     Specimen {
         name: "weights-swapped",
@@ -85,7 +78,7 @@ pub(super) const FAMILY: &[Specimen] = &[
         name: "no-octaves",
         defect: "the scale is used as it is, so cells slide over the surface as the camera moves",
         mend: "round the scale to powers of two, and interpolate between two of them",
-        claim: "continuity.zoom",
+        claim: "continuity.tilt",
         subject: || {
             of_scale(Precision::F64, |position, scale| ideal_hash((position * scale).floor().into(), 0))
         },

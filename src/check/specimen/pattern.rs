@@ -2,6 +2,10 @@
 
 use super::Specimen;
 use super::port::{Port, SOUND, ideal_hash};
+use crate::check::Subject;
+use crate::check::subject::Precision;
+use crate::scene::Fragment;
+use crate::threshold::two_scale::Variant;
 
 /// Listing 1 with a pattern for the hash.
 const fn patterned(hash: fn([f64; 3], i32) -> f64) -> Port {
@@ -87,7 +91,7 @@ pub(super) const FAMILY: &[Specimen] = &[
         name: "shuffled-strata",
         defect: "the cells of every row of 16 have one threshold in each 16th of the range, as if coverage should be exact",
         mend: "hash every cell by itself",
-        claim: "independence.neighbours",
+        claim: "coverage.variance",
         subject: || {
             patterned(|[x, y, z], octave| {
                 let (row, place) = ((x / 16.0).floor(), x.rem_euclid(16.0));
@@ -95,6 +99,23 @@ pub(super) const FAMILY: &[Specimen] = &[
                 ((5.0 * place + turn).rem_euclid(16.0) + ideal_hash([x, y, z], octave)) / 16.0
             })
             .subject()
+        },
+    },
+    Specimen {
+        name: "tone-across-the-screen",
+        defect: "a wave across the screen is added to the threshold and the fraction taken: uniform everywhere, with one \
+                 frequency too strong",
+        mend: "let the threshold depend on the object alone",
+        claim: "spectrum.ordinates",
+        subject: || {
+            let sound = SOUND.subject();
+            let humming = move |at: &Fragment| {
+                let wave = 0.25 * libm::sin(core::f64::consts::TAU * 0.31 * at.pixel.x);
+                Some(fraction(sound.threshold(*at)? + wave))
+            };
+            let mut subject = Subject::of_fragments("specimen", Precision::F64, Variant::Isotropic, humming);
+            subject.nested_phase = true;
+            subject
         },
     },
 ];

@@ -67,13 +67,6 @@ pub(super) const FAMILY: &[Specimen] = &[
         subject: || without(Repair::NestedPhase, Variant::Isotropic),
     },
     Specimen {
-        name: "cells-of-three-scales-at-whole-numbers",
-        defect: "anisotropic cells begin at whole numbers, on which planes of real models lie",
-        mend: "shift cells by 1/3 in even octaves and 2/3 in odd ones, axis by axis",
-        claim: "planes.dyadic",
-        subject: || without(Repair::NestedPhase, Variant::Anisotropic),
-    },
-    Specimen {
         name: "no-octave-word",
         defect: "cells of equal index in different octaves hash alike, in 32 bits and along three scales",
         mend: "hash the octave as a fourth word",
