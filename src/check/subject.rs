@@ -78,7 +78,8 @@ pub struct Subject<'a> {
     pub nested_phase: bool,
     /// The size of the noise in pixels that it claims to have.
     pub hash_scale: f64,
-    /// Over how many frames it claims to spread its thresholds (Eq. 6); 1 where a threshold stays what it is.
+    /// Over how many frames it claims to spread its thresholds (Eq. 6), beginning with stratum 0 in frame 0; 1 where a
+    /// threshold stays what it is.
     pub frames: u32,
     threshold: Evaluation<'a>,
     interpolated: Option<OneByOne<'a>>,
