@@ -129,8 +129,8 @@ fn an_absent_table_leaves_no_trace() {
         for known in ALL.iter().filter(|known| (known.is_in)(&set)) {
             let mut rest = set.clone();
             (known.remove)(&mut rest);
-            if effects::check(&rest).is_err() {
-                // Something else needs it.
+            // Something else needs it, or it is what a scene gets that calls for nothing.
+            if effects::check(&rest).is_err() || known.name == "fixed" {
                 continue;
             }
             removed += 1;
@@ -253,7 +253,8 @@ fn one_thread_or_two_draw_the_same() {
         assert_eq!(one.sheet(None), two.sheet(None));
         // Another seed draws something else.
         let other = ready(SceneFile { seed: 1, ..scene.file.clone() });
-        assert_ne!(drawn(&other).takes[0].mean, one.takes[0].mean, "{name}");
+        let other = drawn(&other);
+        assert!(other.takes.iter().zip(&one.takes).any(|(other, one)| other.mean != one.mean), "{name}");
     }
 }
 

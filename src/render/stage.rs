@@ -179,11 +179,12 @@ pub fn hashes(model: &Model) -> u64 {
                     2
                 }
             }
+            // Both ends, a choice for each scale, and what is chosen.
             Join::Dithered => {
                 if anisotropic(robust.variant) {
-                    4
+                    6
                 } else {
-                    2
+                    4
                 }
             }
         },

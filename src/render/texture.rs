@@ -96,8 +96,9 @@ impl Texture {
         if self.filter != Filter::Anisotropic {
             return Access { texcoord, lod: lod(long), probes: 1, step: Vec2::ZERO };
         }
-        // A quotient of zeros is no anisotropy; `max` drops the NaN.
-        let probes = (long / short).ceil().max(1.0).min(MOST_PROBES);
+        // A quotient of zeros is no anisotropy.
+        let ratio = if long > short { long / short } else { 1.0 };
+        let probes = ratio.ceil().min(MOST_PROBES);
         Access { texcoord, lod: lod(long / probes), probes: probes as u32, step: axis / probes }
     }
 
