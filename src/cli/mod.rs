@@ -3,7 +3,7 @@
 //! | module | holds |
 //! |---|---|
 //! | [`args`] | verbs, options and their help |
-//! | [`check`], [`compare`], [`eval`], [`scenes`], [`shader`] | one job a verb |
+//! | [`check`], [`compare`], [`cost`], [`eval`], [`scenes`], [`shader`] | one job a verb |
 //! | [`subjects`] | what a typed subject means, and where it runs |
 //! | [`rows`] | footprints as comma-separated text, read and written |
 //! | [`known`] | the TOML list of known findings |
@@ -15,6 +15,7 @@
 mod args;
 mod check;
 mod compare;
+mod cost;
 mod eval;
 mod failure;
 mod known;
@@ -49,6 +50,7 @@ pub fn run(args: &Args) -> Result<Ending, Failure> {
     match &args.verb {
         Verb::Check(args) => check::run(args),
         Verb::Compare(args) => compare::run(args),
+        Verb::Cost(args) => cost::run(args),
         Verb::Eval(args) => eval::run(args),
         Verb::Scenes(args) => scenes::run(args),
         Verb::Shader(args) => shader::run(args),

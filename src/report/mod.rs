@@ -7,11 +7,14 @@
 //! | [`text`] | `cli` | the table for a terminal, one line a claim |
 //! | [`html`] | `cli` | one page that needs nothing but the pictures beside it |
 //! | [`directory`] | `cli` | all of that as files |
+//! | [`cost`] | `cli` | what was measured of time: tables, JSON Lines, pictures |
 //!
 //! What lives here takes what others found out and shows it. What never will: statistics, verdicts, thresholds of its
 //! own making, printing, clocks. May import [`check`](crate::check), `scene`, [`threshold`](crate::threshold) and
 //! `stats`; only the command line and the plots import it.
 
+#[cfg(feature = "cli")]
+pub mod cost;
 #[cfg(feature = "cli")]
 pub mod directory;
 #[cfg(feature = "plots")]
