@@ -5,8 +5,8 @@ use super::double_double::RealSine;
 use super::law::{Evaluate, Law, Samples};
 use super::pool::{COARSE, Pool, SLICE, WIDE};
 use super::stages::{StageInputs, stages};
-use super::{Effort, baseline};
-use crate::threshold::batch::{Batch, ColumnBuffer, Isa, Lane, Model, Tier};
+use super::{Effort, baseline, sizes};
+use crate::threshold::batch::{Batch, Bins, ColumnBuffer, Isa, Lane, Model, Tier};
 use crate::threshold::cdf::CdfForm;
 use crate::threshold::footprint::Footprint;
 use crate::threshold::hash::{Cell, Hash, HashKind};
@@ -14,6 +14,7 @@ use crate::threshold::hashed::HashedAlpha;
 use crate::threshold::real::Real;
 use crate::threshold::robust::{Join, Robust};
 use crate::threshold::two_scale::Variant;
+use std::hint::black_box;
 
 /// One measurement.
 #[derive(Clone, Debug, PartialEq)]
@@ -286,6 +287,45 @@ impl Judge {
     }
 }
 
+/// How many footprints a streamed row makes, evaluates and hands on: several tasks a thread.
+const STREAMED: usize = 1 << 21;
+
+/// Thresholds of footprints that are made as they are needed, on one and two threads, seen or counted in bins.
+///
+/// No rows where threads cannot be had.
+fn streamed<'a>() -> Vec<Entry<'a>> {
+    let mut entries = Vec::new();
+    for threads in [1, 2] {
+        for binned in [false, true] {
+            let Ok(pool) = rayon::ThreadPoolBuilder::new().num_threads(threads).build() else { continue };
+            let batch = Batch::new(Robust::new(Variant::Isotropic));
+            let name = if binned { "robust, streamed and binned" } else { "robust, streamed" };
+            let row = Row {
+                tier: batch.tier.name(),
+                isa: batch.isa.name(),
+                threads,
+                ..Row::of_model(name, &batch.model)
+            };
+            let see = move |bins: &mut Bins, thresholds: &[f32]| {
+                if binned {
+                    bins.add(batch.isa, thresholds);
+                } else {
+                    black_box(thresholds);
+                }
+            };
+            let start = || Bins::new(1 << 10);
+            let run = move |_| {
+                let merge = |earlier: &mut Bins, later: Bins| earlier.merge(&later);
+                let bins = pool.install(|| batch.stream(STREAMED as u64, sizes::grid, start, see, merge));
+                bins.counts()[0] as f64
+            };
+            let contender = Contender { items: STREAMED, run: Box::new(run), touch: Box::new(|_| 0.0) };
+            entries.push(Entry { row, contender });
+        }
+    }
+    entries
+}
+
 /// A listing to the letter with a hash.
 fn listing(variant: Variant, hash: HashKind) -> Model {
     HashedAlpha { variant, hash, hash_scale: 1.0, form: CdfForm::Literal }.into()
@@ -331,6 +371,7 @@ pub fn ladder(effort: Effort, done: &dyn Fn()) -> Vec<Row> {
     let inputs = StageInputs::new(slices);
     let mut entries = stages(&inputs);
     entries.extend(judge.thresholds(&pools, done));
+    entries.extend(streamed());
     let (mut rows, mut contenders): (Vec<Row>, Vec<Contender<'_>>) =
         entries.into_iter().map(|entry| (entry.row, entry.contender)).unzip();
     let times = race(&mut contenders, rounds(effort), done);

@@ -65,7 +65,7 @@ const ROW: u64 = 1 << 15;
 /// Puts every footprint into a cell of its own of both octaves, at 1024 different weights between them.
 ///
 /// Derivatives run over [1/2, 1), so that coarse cells have a side of 1 and indices are those of the grid.
-fn grid(first: u64, columns: &mut ColumnBuffer<f32>) {
+pub(super) fn grid(first: u64, columns: &mut ColumnBuffer<f32>) {
     let (x, y) = ((first % ROW) as f32 + 0.25, (first / ROW) as f32 + 0.25);
     for (i, column) in columns.position[0].iter_mut().enumerate() {
         *column = x + i as f32;
