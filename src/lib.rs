@@ -10,12 +10,14 @@
 //! | [`technique`] | what the sources compare with or build upon the hash |
 //! | `render` (feature `render`) | scenes that simulate only the effects they call for |
 //! | [`check`] | the verdict: claims, subjects, runs |
+//! | [`cost`] | what accuracy and effects cost in time |
 //! | `report` (feature `plots`; text, JSON and HTML with `cli`) | what people see |
 //!
 //! Where to begin: [`threshold::robust::Robust`] for a threshold to use, [`threshold::hashed::HashedAlpha`] for the
 //! paper's to the letter, [`check::run`] for a verdict.
 
 pub mod check;
+pub mod cost;
 #[cfg(feature = "render")]
 pub mod render;
 #[cfg(feature = "plots")]

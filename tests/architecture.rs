@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Each wing and the wings that it may import.
-const MAY_IMPORT: [(&str, &[&str]); 9] = [
+const MAY_IMPORT: [(&str, &[&str]); 10] = [
     ("threshold", &[]),
     ("stats", &[]),
     ("scene", &["threshold"]),
@@ -12,8 +12,9 @@ const MAY_IMPORT: [(&str, &[&str]); 9] = [
     ("shader", &["threshold", "scene", "technique"]),
     ("render", &["threshold", "scene", "stats", "shader", "technique"]),
     ("check", &["threshold", "scene", "stats", "shader"]),
-    ("report", &["threshold", "scene", "stats", "shader", "technique", "render", "check"]),
-    ("cli", &["threshold", "scene", "stats", "shader", "technique", "render", "check", "report"]),
+    ("cost", &["threshold", "scene", "stats", "technique"]),
+    ("report", &["threshold", "scene", "stats", "shader", "technique", "render", "check", "cost"]),
+    ("cli", &["threshold", "scene", "stats", "shader", "technique", "render", "check", "cost", "report"]),
 ];
 
 fn rust_files(folder: &Path) -> Vec<PathBuf> {
@@ -87,7 +88,7 @@ fn the_threshold_takes_its_transcendentals_from_one_place() {
 
 #[test]
 fn only_the_command_line_prints() {
-    for wing in ["threshold", "stats", "scene", "shader", "technique", "render", "check", "report"] {
+    for wing in ["threshold", "stats", "scene", "shader", "technique", "render", "check", "cost", "report"] {
         for path in rust_files(&source().join(wing)) {
             for word in ["println!", "eprintln!", "stdout()", "stderr()"] {
                 assert!(!code(&path).contains(word), "{} has {word}", path.display());

@@ -6,8 +6,9 @@ use budget::budget;
 use hashed_alpha::threshold::batch::{BLOCK, Batch, Bins, CHUNK, ColumnBuffer, Isa, Lane, Model, Tier};
 use hashed_alpha::threshold::cdf::CdfForm;
 use hashed_alpha::threshold::footprint::Footprint;
-use hashed_alpha::threshold::hash::HashKind;
+use hashed_alpha::threshold::hash::{Cell, Hash, HashKind};
 use hashed_alpha::threshold::hashed::HashedAlpha;
+use hashed_alpha::threshold::real::sin_f32;
 use hashed_alpha::threshold::robust::{Join, Repair, Repairs, Robust};
 use hashed_alpha::threshold::two_scale::Variant;
 use rand::{RngExt, SeedableRng, rngs::Xoshiro256PlusPlus};
@@ -99,7 +100,8 @@ fn models() -> Vec<Model> {
         for variant in Variant::ALL {
             for form in CdfForm::ALL {
                 for hash_scale in [1.0, 0.3] {
-                    models.push(HashedAlpha { variant, hash, hash_scale, form }.into());
+                    let hashed = HashedAlpha { variant, hash, hash_scale, form };
+                    models.extend([Model::Hashed(hashed), Model::BeforeCdf(hashed)]);
                 }
             }
             for join in Join::ALL {
@@ -124,6 +126,46 @@ fn models() -> Vec<Model> {
 /// A listing to the letter.
 fn sine(variant: Variant) -> HashedAlpha {
     HashedAlpha { variant, hash: HashKind::Sine, hash_scale: 1.0, form: CdfForm::Literal }
+}
+
+/// The hash of cells alone is that of the scalar path, in every bit.
+#[test]
+fn cells_have_the_hash_of_the_scalar_path() {
+    let mut random = Xoshiro256PlusPlus::seed_from_u64(5);
+    let count = 3 * BLOCK + 7;
+    let axes = [0; 3].map(|_| (0..count).map(|_| random.random_range(-40_000_i32..40_000) as f32).collect());
+    let [x, y, z]: [Vec<f32>; 3] = axes;
+    let word: Vec<u32> = (0..count as u32).collect();
+    for hash in HashKind::ALL {
+        for isa in Isa::available() {
+            let mut values = vec![0.0; count];
+            isa.hash(hash, Tier::BitExact, [&x, &y, &z], &word, &mut values);
+            for i in 0..count {
+                let cell = Cell { index: glam::vec3(x[i], y[i], z[i]), octave: word[i] };
+                let expected: f32 = hash.hash(&cell);
+                assert_eq!(values[i].to_bits(), expected.to_bits(), "{hash} on {isa}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_sine_of_every_tier_has_the_same_bits_on_every_isa() {
+    let x: Vec<f32> = (0..1000).map(|i| i as f32 * 37.21 - 20_000.0).collect();
+    let on = |isa: Isa, tier| {
+        let mut values = vec![0.0; x.len()];
+        isa.sin_of(tier, &x, &mut values);
+        values
+    };
+    for tier in Tier::ALL {
+        for isa in Isa::available() {
+            assert_eq!(on(isa, tier), on(Isa::Portable, tier), "{tier} on {isa}");
+        }
+        let errors = x.iter().zip(on(Isa::Portable, tier)).map(|(x, sine)| (sine - sin_f32(*x)).abs());
+        let worst = errors.fold(0.0, f32::max);
+        assert_eq!(worst == 0.0, tier == Tier::BitExact, "{tier}: {worst}");
+        assert_eq!(worst > 1e-6, tier == Tier::Coarse, "{tier}: {worst}");
+    }
 }
 
 fn bits<R: Lane>(value: R) -> u64 {

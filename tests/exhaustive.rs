@@ -102,7 +102,24 @@ fn is_correctly_rounded_on_every_isa(
 
 /// How many of the scalar values are looked at: the portable loop compiles the same body and runs over all of them.
 fn scalar_stride() -> u32 {
-    budget().pick(1009, 7, 1)
+    budget().pick(1009, 61, 1)
+}
+
+/// Up to here, 2^-12, the correctly rounded sine of a number is the number: it lies less than 2^-26.5 of it towards zero,
+/// and half the way to the next number is 2^-25 of it at least.
+const OWN_SINE: f32 = 1.0 / 4096.0;
+
+fn correct_sine(x: f32) -> f32 {
+    if x.abs() <= OWN_SINE { x } else { core_math::sinf(x) }
+}
+
+#[test]
+fn small_numbers_are_their_own_sine() {
+    let range = 0..=OWN_SINE.to_bits();
+    is_correctly_rounded("x", range, budget().pick(100_003, 1009, 1), |x| x, core_math::sinf);
+    let (last, next) = (OWN_SINE, f32::from_bits(OWN_SINE.to_bits() + (1 << 22)));
+    assert_eq!(core_math::sinf(last), last);
+    assert_ne!(core_math::sinf(next), next);
 }
 
 #[test]
@@ -110,8 +127,8 @@ fn the_sine_is_correctly_rounded_up_to_its_domain() {
     let largest = SIN_F32_DOMAIN.to_bits();
     for sign in [0, MINUS] {
         let range = sign..=sign + largest;
-        is_correctly_rounded("sin_f32", range.clone(), scalar_stride(), sin_f32, core_math::sinf);
-        is_correctly_rounded_on_every_isa("sin", range, budget().pick(1009, 1, 1), Isa::sin, core_math::sinf);
+        is_correctly_rounded("sin_f32", range.clone(), scalar_stride(), sin_f32, correct_sine);
+        is_correctly_rounded_on_every_isa("sin", range, budget().pick(1009, 1, 1), Isa::sin, correct_sine);
     }
 }
 
@@ -147,9 +164,15 @@ fn one_wrong_value_in_a_million_is_found() {
 
 #[test]
 fn the_power_is_correctly_rounded_everywhere() {
-    let stride = budget().pick(1009, 1, 1);
+    // Below 2^-26 the power is 1, from 150 on it is 0 or infinite: few of those are looked at but at night.
+    let [first, last] = [1.0_f32 / 67_108_864.0, 150.0].map(f32::to_bits);
+    let (stride, elsewhere) = (budget().pick(1009, 1, 1), budget().pick(1009, 101, 1));
     for sign in [0, MINUS] {
-        is_correctly_rounded("exp2_f32", sign..=sign + INFINITY, stride, exp2_f32, core_math::exp2f);
+        for (range, stride) in [(0..=first, elsewhere), (first..=last, stride), (last..=INFINITY, elsewhere)]
+        {
+            let range = sign + range.start()..=sign + range.end();
+            is_correctly_rounded("exp2_f32", range, stride, exp2_f32, core_math::exp2f);
+        }
     }
     // The two arguments at which a double-precision power rounds to the wrong side.
     for bits in [0x3b42_9d37, 0xbcf3_a937] {

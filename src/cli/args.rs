@@ -24,7 +24,8 @@ Examples:
   hashed-alpha check robust                      the threshold with every repair
   hashed-alpha check paper:isotropic --json      one subject, one JSON object a claim
   hashed-alpha scenes fence | hashed-alpha eval  thresholds of a scene
-  hashed-alpha eval --literal --trace rows.csv   every step of Listing 1";
+  hashed-alpha eval --literal --trace rows.csv   every step of Listing 1
+  hashed-alpha cost                              what accuracy costs in time";
 
 /// Verifies the hashed alpha threshold of Wyman and McGuire (2017).
 ///
@@ -45,6 +46,7 @@ pub struct Args {
 pub enum Verb {
     Check(CheckArgs),
     Compare(CompareArgs),
+    Cost(CostArgs),
     Eval(EvalArgs),
     Explain(ExplainArgs),
     Render(RenderArgs),
@@ -192,6 +194,42 @@ pub struct CompareArgs {
     /// How many samples are drawn: `quick` for a quarter, `nightly` for sixteen times as many
     #[arg(long, default_value = "ci", value_parser = one_of(Budget::ALL, Budget::name))]
     pub budget: Budget,
+}
+
+/// Measures what accuracy costs in time
+///
+/// All tiers are timed in one run, in turns, on one thread and fresh inputs. `ratio` says how many times faster than Listing 1
+/// written in Rust with the sine of the standard library. `error` is the greatest distance to the exact value for sine and
+/// logarithm, and the mean distance to the formula over real numbers for hashes and thresholds: 0.33 is that of two random
+/// numbers. `flips` and `zoom flips` count how often a fragment appears or vanishes in a pixel of motion and an octave of zoom.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  hashed-alpha cost                       every tier of sine, hash and threshold; pictures of the fronts in report/
+  hashed-alpha cost --quick --out /dev/shm/cost
+  hashed-alpha cost --json | jq -c 'select(.name == \"literal\") | [.tier, .isa, .ratio, .bits_equal]'
+  hashed-alpha cost --effects             what each effect of the paper adds, and Table 1 beside it
+  hashed-alpha cost --sizes               time and memory of 10^4 to 10^9 samples, on 1 and 2 threads
+  hashed-alpha cost --sizes --samples 10000000000")]
+pub struct CostArgs {
+    /// Measure effects: fixed, stochastic, hashed, fade-in, stratification, coverage
+    #[arg(long, conflicts_with = "sizes")]
+    pub effects: bool,
+    /// Measure time and memory against the number of samples, on 1 and 2 threads
+    #[arg(long)]
+    pub sizes: bool,
+    /// One number of samples in place of all powers of ten
+    #[arg(long, value_name = "N", requires = "sizes", value_parser = clap::value_parser!(u64).range(1..=1_000_000_000_000))]
+    pub samples: Option<u64>,
+    /// A few seconds, to see that all of it works; the figures are rough
+    #[arg(long)]
+    pub quick: bool,
+    /// Write one JSON object a row in place of the table
+    #[arg(long)]
+    pub json: bool,
+    /// Folder for tables and pictures
+    #[arg(long, value_name = "DIR", default_value = "report")]
+    pub out: PathBuf,
 }
 
 /// Prints the verified threshold in a shading language

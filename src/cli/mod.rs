@@ -3,7 +3,7 @@
 //! | module | holds |
 //! |---|---|
 //! | [`args`] | verbs, options and their help |
-//! | [`check`], [`compare`], [`eval`], [`explain`], [`render`], [`scenes`], [`shader`] | one job a verb |
+//! | [`check`], [`compare`], [`cost`], [`eval`], [`explain`], [`render`], [`scenes`], [`shader`] | one job a verb |
 //! | [`scene_files`] | what a typed scene means |
 //! | [`subjects`] | what a typed subject means, and where it runs |
 //! | [`rows`] | footprints as comma-separated text, read and written |
@@ -17,6 +17,7 @@
 mod args;
 mod check;
 mod compare;
+mod cost;
 mod drivers;
 mod eval;
 mod explain;
@@ -55,6 +56,7 @@ pub fn run(args: &Args) -> Result<Ending, Failure> {
     match &args.verb {
         Verb::Check(args) => check::run(args),
         Verb::Compare(args) => compare::run(args),
+        Verb::Cost(args) => cost::run(args),
         Verb::Eval(args) => eval::run(args),
         Verb::Explain(args) => explain::run(args),
         Verb::Render(args) => render::run(args),

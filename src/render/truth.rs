@@ -44,12 +44,7 @@ pub fn frame(scene: &Scene, textures: &[Texture], shot: &Shot, index: u32, side:
     (picture.downsample(side), cost)
 }
 
-fn blend(
-    scene: &Scene,
-    textures: &[Texture],
-    screen: &Screen,
-    fragments: &Fragments,
-) -> (Blended, Cost) {
+fn blend(scene: &Scene, textures: &[Texture], screen: &Screen, fragments: &Fragments) -> (Blended, Cost) {
     let mut order: Vec<usize> = (0..fragments.len()).collect();
     order.sort_by(|&a, &b| {
         let key = |at: usize| (fragments.pixel[at], fragments.depth[at]);

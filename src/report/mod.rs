@@ -9,12 +9,15 @@
 //! | [`html`] | `cli` | one page that needs nothing but the pictures beside it |
 //! | [`study`] | `cli` | plans, counts and numbers of scenes as text, CSV and JSON |
 //! | [`directory`] | `cli` | all of that as files |
+//! | [`cost`] | `cli` | what was measured of time: tables, JSON Lines, pictures |
 //!
 //! What lives here takes what others found out and shows it. What never will: statistics, verdicts, thresholds of its
 //! own making, printing, clocks. May import every wing but `cli`; only the command line and the plots import it.
 
 #[cfg(feature = "cli")]
 pub mod by_model;
+#[cfg(feature = "cli")]
+pub mod cost;
 #[cfg(feature = "cli")]
 pub mod directory;
 #[cfg(feature = "plots")]

@@ -13,11 +13,15 @@
 //! | [`validity`] | where each arithmetic keeps the law of the hash |
 //! | [`planes`] | bias, flicker and missing thresholds on planes that follow an axis |
 //! | [`evidence`] | what a claim saw |
+//! | [`front`] | a value against the time that it costs, and the points that no other one beats |
+//! | [`growth`] | costs against a size |
 //! | [`kill_matrix`] | which claims reject which specimens |
 
 pub mod before_and_after;
 pub mod cdf_family;
 pub mod evidence;
+pub mod front;
+pub mod growth;
 pub mod kill_matrix;
 pub mod noise;
 pub mod planes;

@@ -73,12 +73,13 @@ impl<R: Kernel> Cells<R> {
 
     /// Hashes the cells.
     #[inline(always)]
-    pub fn hash<const FUSED: bool>(&mut self, plan: &Plan<R>, out: &mut Block<R>) {
-        match plan.hash {
-            HashKind::Sine | HashKind::SineChi2 => match plan.tier {
-                Tier::Fast if R::HAS_TIERS => self.hash_sine(plan.hash, R::sine_fast, out),
-                Tier::TwoUlp if R::HAS_TIERS => self.hash_sine(plan.hash, R::sine_two_ulp, out),
-                _ => self.hash_sine(plan.hash, R::sine::<FUSED>, out),
+    pub fn hash<const FUSED: bool>(&mut self, kind: HashKind, tier: Tier, out: &mut Block<R>) {
+        match kind {
+            HashKind::Sine | HashKind::SineChi2 => match tier {
+                Tier::Coarse if R::HAS_TIERS => self.hash_sine(kind, R::sine_coarse, out),
+                Tier::Fast if R::HAS_TIERS => self.hash_sine(kind, R::sine_fast, out),
+                Tier::TwoUlp if R::HAS_TIERS => self.hash_sine(kind, R::sine_two_ulp, out),
+                _ => self.hash_sine(kind, R::sine::<FUSED>, out),
             },
             HashKind::Mm4 => self.hash_words(integer::Mm4::word, out),
             HashKind::Xxhash32 => self.hash_words(integer::Xxhash32::word, out),

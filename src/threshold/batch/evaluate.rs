@@ -105,7 +105,7 @@ impl<R: Kernel> Stages<R> {
         let looks = plan.looks();
         for look in 0..looks {
             self.find_cells(plan, block, look);
-            self.cells.hash::<FUSED>(plan, &mut self.hashes[look % 2]);
+            self.cells.hash::<FUSED>(plan.hash, plan.tier, &mut self.hashes[look % 2]);
             match plan.join {
                 Join::Interpolate => {}
                 Join::Copula => self.add_quantiles(plan, look),

@@ -37,6 +37,11 @@ pub trait Kernel: Real {
     fn octave_fast(scale: Self) -> (i32, Self) {
         Self::octave_by_exponent::<false>(scale)
     }
+    /// Returns the sine of [`Tier::Coarse`](super::Tier::Coarse).
+    #[inline(always)]
+    fn sine_coarse(self) -> Self {
+        self.sine::<false>()
+    }
     /// Returns the sine of [`Tier::Fast`](super::Tier::Fast).
     #[inline(always)]
     fn sine_fast(self) -> Self {
@@ -92,6 +97,10 @@ impl Kernel for f32 {
         octave_fast(scale)
     }
     #[inline(always)]
+    fn sine_coarse(self) -> Self {
+        sin_by_one_product(self)
+    }
+    #[inline(always)]
     fn sine_fast(self) -> Self {
         sin_by_half_turns(self)
     }
@@ -103,6 +112,19 @@ impl Kernel for f32 {
 
 /// Adding and subtracting 1.5 * 2^23 rounds to the nearest integer, whose parity is then the lowest bit of the sum.
 const TO_NEAREST: f32 = 12_582_912.0;
+
+/// Returns the sine with an absolute error below 2^-12 for |x| up to pi, as a device may: half-turns are counted by one
+/// rounded product, and a polynomial of degree 5 follows.
+#[inline(always)]
+fn sin_by_one_product(x: f32) -> f32 {
+    const COEFFICIENTS: [f32; 3] =
+        [f32::from_bits(0x4049_003f), f32::from_bits(0xc0a4_6187), f32::from_bits(0x4013_2bc9)];
+    let half_turns = x * core::f32::consts::FRAC_1_PI;
+    let shifted = half_turns + TO_NEAREST;
+    let rest = half_turns - (shifted - TO_NEAREST);
+    let sine = rest * horner(rest * rest, &COEFFICIENTS);
+    f32::from_bits(sine.to_bits() ^ (shifted.to_bits() << 31))
+}
 
 /// Returns the sine with an absolute error below 2^-22 for |x| up to 2^20: the argument is counted in half-turns.
 ///
@@ -205,6 +227,15 @@ mod tests {
     fn the_sine_by_half_turns_has_a_small_absolute_error() {
         let error = worst(sin_by_half_turns, |_| 1.0);
         assert!(error < libm::exp2(-22.0), "2^{}", libm::log2(error));
+    }
+
+    #[test]
+    fn the_sine_by_one_product_is_good_for_one_turn_only() {
+        let error = |x: f32| (f64::from(sin_by_one_product(x)) - libm::sin(f64::from(x))).abs();
+        let within = (-31_415..=31_415).map(|i| error(i as f32 * 1e-4)).fold(0.0, f64::max);
+        assert!(within < libm::exp2(-12.0), "2^{}", libm::log2(within));
+        let beyond = (0..1000).map(|i| error(6e5 + i as f32 * 1.3)).fold(0.0, f64::max);
+        assert!(beyond > libm::exp2(-7.0), "2^{}", libm::log2(beyond));
     }
 
     #[test]

@@ -13,7 +13,7 @@
 //! | `lane`, `double` | sine, logarithm and powers of two without a branch, in `f32` and `f64` |
 //! | `plan` | a model as the loops want it |
 //! | `octaves`, `cells`, `evaluate` | the stages |
-//! | `slices` | [`Isa::sin`] and [`Isa::log2`] |
+//! | `slices` | [`Isa::sin`], [`Isa::log2`] and [`Isa::hash`] |
 //! | `stream`, `bins` | any number of thresholds on every core, counted as they come |
 //!
 //! Not in the paper.
@@ -82,6 +82,8 @@ lane!(f64);
 pub enum Model {
     /// A listing, or one of its ablations.
     Hashed(HashedAlpha),
+    /// The same before Eq. 2: two hashes mixed, and not uniform.
+    BeforeCdf(HashedAlpha),
     /// The listing with repairs.
     Robust(Robust),
 }
@@ -104,6 +106,7 @@ impl Model {
     pub fn threshold<R: Real>(&self, footprint: &Footprint<R>) -> R {
         match self {
             Self::Hashed(hashed) => hashed.threshold(footprint),
+            Self::BeforeCdf(hashed) => hashed.trace(footprint).interpolated,
             Self::Robust(robust) => robust.threshold(footprint).unwrap_or(R::from_f64(f64::NAN)),
         }
     }
@@ -111,10 +114,13 @@ impl Model {
 
 /// How exact the sine and the logarithm of an `f32` batch are.
 ///
-/// Each tier has the same bits on every machine. One without fused multiply-add emulates it for the two fast tiers,
-/// which are slow there.
+/// Each tier has the same bits on every machine. One without fused multiply-add emulates it for the faster tiers, which
+/// are slow there.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Tier {
+    /// Sine within 2^-11 for arguments up to pi, which is all that WGSL promises; beyond, the error grows with the
+    /// argument, and the law of the hash suffers with it. Octave by the exponent.
+    Coarse,
     /// Sine within 2^-22 for arguments up to 2^20, octave by the exponent. Same law as the exact tier, other values:
     /// the hash turns the last digit of a sine into another number.
     Fast,
@@ -127,12 +133,13 @@ pub enum Tier {
 
 impl Tier {
     /// Every tier, the fastest first.
-    pub const ALL: [Self; 3] = [Self::Fast, Self::TwoUlp, Self::BitExact];
+    pub const ALL: [Self; 4] = [Self::Coarse, Self::Fast, Self::TwoUlp, Self::BitExact];
 
     /// The name in tables.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
+            Self::Coarse => "wgsl-minimum",
             Self::Fast => "fast",
             Self::TwoUlp => "two-ulp",
             Self::BitExact => "bit-exact",

@@ -35,6 +35,7 @@ impl<R: Kernel> Plan<R> {
     pub fn new(model: &Model, tier: Tier) -> Self {
         match model {
             Model::Hashed(hashed) => Self::of_listing(hashed, tier),
+            Model::BeforeCdf(hashed) => Self { cdf: None, smallest: None, ..Self::of_listing(hashed, tier) },
             Model::Robust(robust) => Self::of_robust(robust, tier),
         }
     }
@@ -93,6 +94,7 @@ impl<R: Kernel> Plan<R> {
             _ => R::LARGEST_WORD,
         }
     }
+
     /// How many cells of a footprint are hashed.
     pub fn looks(&self) -> usize {
         match (self.variant, self.join) {

@@ -1,8 +1,10 @@
-//! The two transcendentals of the listings over whole slices.
+//! The stages of the listings over whole slices: sine, logarithm, hash.
 
+use super::cells::Cells;
 use super::isa::{Isa, Job};
 use super::lane::Kernel;
-use super::{BLOCK, Block};
+use super::{BLOCK, Block, Tier};
+use crate::threshold::hash::HashKind;
 use crate::threshold::real::{SIN_F32_DOMAIN, exp2_f32, log2_everywhere, sin_f32, sin_in_domain};
 
 impl Isa {
@@ -16,6 +18,33 @@ impl Isa {
     pub fn sin(self, x: &[f32], out: &mut [f32]) {
         assert_eq!(x.len(), out.len(), "as many values as arguments");
         self.run(Sin { x, out });
+    }
+
+    /// Writes the sine of every element of `x` (radians) to `out` as the hash of a tier takes it; [`Isa::sin`] for the
+    /// exact one.
+    ///
+    /// # Panics
+    /// If the lengths differ.
+    pub fn sin_of(self, tier: Tier, x: &[f32], out: &mut [f32]) {
+        assert_eq!(x.len(), out.len(), "as many values as arguments");
+        match tier {
+            Tier::BitExact => self.sin(x, out),
+            _ => self.run(InexactSin { tier, x, out }),
+        }
+    }
+
+    /// Writes the hash of every cell to `out`, as a batch of a tier has it: coordinates along each axis, and the word of
+    /// the octaves. Coordinates are whole numbers below 2^20.
+    ///
+    /// # Panics
+    /// If the lengths differ.
+    pub fn hash(self, kind: HashKind, tier: Tier, index: [&[f32]; 3], word: &[u32], out: &mut [f32]) {
+        let length = out.len();
+        assert!(
+            index.iter().all(|axis| axis.len() == length) && word.len() == length,
+            "as many hashes as cells"
+        );
+        self.run(HashOfCells { kind, tier, index, word, out });
     }
 
     /// Writes the logarithm to base two of every element of `x` to `out`: bit for bit what
@@ -38,6 +67,64 @@ impl Job for Sin<'_> {
     #[inline(always)]
     fn run<const FUSED: bool>(self) {
         over_blocks(self.x, self.out, sin_block::<FUSED>);
+    }
+}
+
+struct InexactSin<'a> {
+    tier: Tier,
+    x: &'a [f32],
+    out: &'a mut [f32],
+}
+
+impl Job for InexactSin<'_> {
+    #[inline(always)]
+    fn run<const FUSED: bool>(self) {
+        match self.tier {
+            Tier::Coarse => over_blocks(self.x, self.out, coarse_block),
+            Tier::Fast => over_blocks(self.x, self.out, fast_block),
+            Tier::TwoUlp | Tier::BitExact => over_blocks(self.x, self.out, two_ulp_block),
+        }
+    }
+}
+
+/// Defines the sine of a tier over a block; a closure would not be compiled for the instructions of its caller.
+macro_rules! sine_of_block {
+    ($block:ident, $sine:ident) => {
+        #[inline(always)]
+        fn $block(x: &Block<f32>, out: &mut Block<f32>) {
+            for i in 0..BLOCK {
+                out[i] = x[i].$sine();
+            }
+        }
+    };
+}
+sine_of_block!(coarse_block, sine_coarse);
+sine_of_block!(fast_block, sine_fast);
+sine_of_block!(two_ulp_block, sine_two_ulp);
+
+struct HashOfCells<'a> {
+    kind: HashKind,
+    tier: Tier,
+    index: [&'a [f32]; 3],
+    word: &'a [u32],
+    out: &'a mut [f32],
+}
+
+impl Job for HashOfCells<'_> {
+    #[inline(always)]
+    fn run<const FUSED: bool>(self) {
+        let Self { kind, tier, index, word, out } = self;
+        let mut cells = Cells::<f32>::new();
+        let mut values = [0.0; BLOCK];
+        for (at, out) in out.chunks_mut(BLOCK).enumerate() {
+            let range = at * BLOCK..at * BLOCK + out.len();
+            for (axis, index) in cells.index.iter_mut().zip(index) {
+                axis[..out.len()].copy_from_slice(&index[range.clone()]);
+            }
+            cells.word[..out.len()].copy_from_slice(&word[range]);
+            cells.hash::<FUSED>(kind, tier, &mut values);
+            out.copy_from_slice(&values[..out.len()]);
+        }
     }
 }
 

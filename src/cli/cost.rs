@@ -1,0 +1,98 @@
+//! `cost`: what accuracy, effects and numbers cost in time.
+
+use super::args::CostArgs;
+use super::failure::Failure;
+use super::{Ending, output};
+use hashed_alpha::cost::{Effort, effects, ladder, sizes};
+use hashed_alpha::report::cost::{json, pictures, table};
+use hashed_alpha::report::directory::write_atomically;
+use indicatif::ProgressBar;
+use std::io::{self, Write};
+use std::path::Path;
+
+/// Measures, writes tables and pictures into the folder, then the results.
+pub fn run(args: &CostArgs) -> Result<Ending, Failure> {
+    let place = || args.out.display().to_string();
+    std::fs::create_dir_all(&args.out).map_err(|source| Failure::File {
+        action: "create",
+        place: place(),
+        source,
+    })?;
+    if cfg!(debug_assertions) {
+        output::remark("note", "this build checks for overflow; `cargo run --release` does not");
+    }
+    let effort = if args.quick { Effort::Quick } else { Effort::Full };
+    if args.sizes {
+        of_sizes(args, effort)
+    } else if args.effects {
+        of_effects(args, effort)
+    } else {
+        of_accuracy(args, effort)
+    }
+}
+
+/// Runs a measurement with a bar on stderr, where that is a terminal.
+fn measured<T>(steps: u64, measure: impl FnOnce(&dyn Fn()) -> T) -> T {
+    let bar = ProgressBar::new(steps);
+    let found = measure(&|| bar.inc(1));
+    bar.finish_and_clear();
+    found
+}
+
+fn of_accuracy(args: &CostArgs, effort: Effort) -> Result<Ending, Failure> {
+    let rows = measured(ladder::steps(effort), |done| ladder::ladder(effort, done));
+    let table = table::ladder(&rows);
+    written(&args.out, "cost.csv", &table.csv())?;
+    for (name, svg) in pictures::ladder(&rows) {
+        written(&args.out, name, &svg)?;
+    }
+    print(args, &table.aligned(), |out| json::write_ladder(&rows, out))
+}
+
+fn of_effects(args: &CostArgs, effort: Effort) -> Result<Ending, Failure> {
+    let prices = measured(effects::steps(effort), |done| effects::prices(effort, done));
+    let table = table::prices(&prices);
+    written(&args.out, "cost-effects.csv", &table.csv())?;
+    let text = format!("{}\n{}", table.aligned(), table::table_1().aligned());
+    print(args, &text, |out| json::write_prices(&prices, out))
+}
+
+fn of_sizes(args: &CostArgs, effort: Effort) -> Result<Ending, Failure> {
+    let wanted = args.samples.map_or_else(|| sizes::all_sizes(effort), |samples| vec![samples]);
+    let of_all = |done: &dyn Fn()| {
+        let mut found = Vec::new();
+        for samples in wanted.iter().copied() {
+            for threads in [1, 2] {
+                found.push(sizes::size(samples, threads)?);
+                done();
+            }
+        }
+        Ok(found)
+    };
+    let refused =
+        |error: Box<dyn std::error::Error>| Failure::Usage(format!("no threads to be had: {error}"));
+    let found = measured(2 * wanted.len() as u64, of_all).map_err(refused)?;
+    let table = table::sizes(&found);
+    written(&args.out, "cost-sizes.csv", &table.csv())?;
+    for (name, svg) in pictures::sizes(&found) {
+        written(&args.out, name, &svg)?;
+    }
+    print(args, &table.aligned(), |out| json::write_sizes(&found, out))
+}
+
+fn written(folder: &Path, name: &str, text: &str) -> Result<(), Failure> {
+    Ok(write_atomically(&folder.join(name), text.as_bytes())?)
+}
+
+/// Writes the results as they were asked for.
+fn print(
+    args: &CostArgs,
+    text: &str,
+    lines: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<Ending, Failure> {
+    output::remark("note", format_args!("tables and pictures are in {}", args.out.display()));
+    let mut results = output::results();
+    let written = if args.json { lines(&mut results) } else { results.write_all(text.as_bytes()) };
+    written.and_then(|()| results.flush()).map_err(Failure::Output)?;
+    Ok(Ending::Consistent)
+}

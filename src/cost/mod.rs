@@ -1,0 +1,45 @@
+//! What accuracy costs: the same threshold in many tiers, timed in one run, with its error and its law beside the time.
+//!
+//! | module | answers |
+//! |---|---|
+//! | [`ladder`] | what does each digit of a sine, a hash, a threshold cost? |
+//! | [`law`] | how uniform is a threshold, and how often does it change what is seen? |
+//! | [`effects`] | what does each effect of the paper add? |
+//! | [`sizes`] | do time and memory grow with the number of samples? |
+//! | [`clock`] | how things are timed so that the ratios mean something |
+//! | [`pool`] | the footprints that are evaluated |
+//! | [`baseline`] | the listings as a user writes them, with the sine of the standard library |
+//! | [`double_double`] | the paper's hash with 106 bits |
+//!
+//! What never lives here: a verdict, a picture, a printed line. Not in the paper, but for its Table 1.
+
+pub mod baseline;
+pub mod clock;
+pub mod double_double;
+pub mod effects;
+pub mod ladder;
+pub mod law;
+pub mod pool;
+pub mod sizes;
+mod stages;
+
+pub use ladder::{Row, ladder};
+
+/// How much is measured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Effort {
+    /// A few seconds: enough to see that all of it works.
+    Quick,
+    /// About a minute on one core.
+    Full,
+}
+
+impl Effort {
+    /// Picks by effort.
+    pub(crate) const fn pick<T: Copy>(self, quick: T, full: T) -> T {
+        match self {
+            Self::Quick => quick,
+            Self::Full => full,
+        }
+    }
+}

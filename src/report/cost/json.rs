@@ -1,0 +1,122 @@
+//! Measurements as JSON Lines: one object a row. What was not measured, or is no number, is null.
+
+use crate::cost::Row;
+use crate::cost::effects::Price;
+use crate::cost::sizes::Size;
+use serde::Serialize;
+use std::io::{self, Write};
+
+/// The keys of a row of the ladder, in their order.
+#[derive(Serialize)]
+struct LadderLine {
+    name: &'static str,
+    variant: &'static str,
+    hash: &'static str,
+    join: &'static str,
+    precision: &'static str,
+    tier: &'static str,
+    isa: &'static str,
+    threads: usize,
+    ns_min: f64,
+    ns_median: f64,
+    ratio: f64,
+    bits_equal: Option<f64>,
+    error: Option<f64>,
+    ks: Option<f64>,
+    flips: Option<f64>,
+}
+
+/// Writes the ladder; `flips` are those of a pixel of motion.
+///
+/// # Errors
+/// What the writer says.
+pub fn write_ladder(rows: &[Row], out: &mut (impl Write + ?Sized)) -> io::Result<()> {
+    let number = |value: Option<f64>| value.filter(|value| value.is_finite());
+    write_lines(
+        out,
+        rows.iter().map(|row| LadderLine {
+            name: row.name,
+            variant: row.variant,
+            hash: row.hash,
+            join: row.join,
+            precision: row.precision,
+            tier: row.tier,
+            isa: row.isa,
+            threads: row.threads,
+            ns_min: row.ns_min,
+            ns_median: row.ns_median,
+            ratio: row.ratio,
+            bits_equal: number(row.bits_equal),
+            error: number(row.error),
+            ks: number(row.law.map(|law| law.ks)),
+            flips: number(row.law.map(|law| law.flips_per_pixel)),
+        }),
+    )
+}
+
+#[derive(Serialize)]
+struct PriceLine {
+    effect: &'static str,
+    source: &'static str,
+    over: &'static str,
+    ns_min: f64,
+    ns_median: f64,
+    marginal: f64,
+    over_fixed: f64,
+}
+
+/// Writes the price list.
+///
+/// # Errors
+/// What the writer says.
+pub fn write_prices(prices: &[Price], out: &mut (impl Write + ?Sized)) -> io::Result<()> {
+    write_lines(
+        out,
+        prices.iter().map(|price| PriceLine {
+            effect: price.name,
+            source: price.source,
+            over: price.over,
+            ns_min: price.ns_min,
+            ns_median: price.ns_median,
+            marginal: price.marginal,
+            over_fixed: price.over_fixed,
+        }),
+    )
+}
+
+#[derive(Serialize)]
+struct SizeLine {
+    samples: u64,
+    threads: usize,
+    seconds: f64,
+    peak_kib: Option<u64>,
+    p: Option<f64>,
+}
+
+/// Writes cost against size.
+///
+/// # Errors
+/// What the writer says.
+pub fn write_sizes(sizes: &[Size], out: &mut (impl Write + ?Sized)) -> io::Result<()> {
+    write_lines(
+        out,
+        sizes.iter().map(|size| SizeLine {
+            samples: size.samples,
+            threads: size.threads,
+            seconds: size.seconds,
+            peak_kib: size.peak_kib,
+            p: size.p,
+        }),
+    )
+}
+
+fn write_lines(
+    out: &mut (impl Write + ?Sized),
+    lines: impl Iterator<Item = impl Serialize>,
+) -> io::Result<()> {
+    for line in lines {
+        serde_json::to_writer(&mut *out, &line)?;
+        out.write_all(b"\n")?;
+    }
+    Ok(())
+}

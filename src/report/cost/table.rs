@@ -1,0 +1,178 @@
+//! Measurements as headings and cells.
+
+use crate::cost::Row;
+use crate::cost::effects::{Price, TABLE_1, table_1_ratios};
+use crate::cost::sizes::Size;
+
+/// A table: headings, and as many cells in every row.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Table {
+    /// What stands above the columns.
+    pub headings: Vec<&'static str>,
+    /// Cells, row by row.
+    pub rows: Vec<Vec<String>>,
+}
+
+impl Table {
+    /// Returns the table with every column as wide as its widest cell, numbers to the right.
+    #[must_use]
+    pub fn aligned(&self) -> String {
+        let width = |column: usize| {
+            let cells = self.rows.iter().map(|row| row[column].chars().count());
+            cells.chain([self.headings[column].chars().count()]).max().unwrap_or(0)
+        };
+        let widths: Vec<usize> = (0..self.headings.len()).map(width).collect();
+        let is_number = |column: usize| {
+            let mut cells = self.rows.iter().map(|row| row[column].as_str()).filter(|&cell| cell != NOTHING);
+            cells.all(|cell| cell.parse::<f64>().is_ok())
+        };
+        let numbers: Vec<bool> = (0..self.headings.len()).map(is_number).collect();
+        let headings: Vec<String> = self.headings.iter().map(|&heading| heading.to_owned()).collect();
+        let mut text = String::new();
+        for row in std::iter::once(&headings).chain(&self.rows) {
+            let cells = row.iter().zip(&widths).zip(&numbers).map(|((cell, &width), &is_number)| {
+                if is_number { format!("{cell:>width$}") } else { format!("{cell:<width$}") }
+            });
+            text += cells.collect::<Vec<_>>().join("  ").trim_end();
+            text += "\n";
+        }
+        text
+    }
+
+    /// Returns the table with commas between the cells; none of them holds one.
+    #[must_use]
+    pub fn csv(&self) -> String {
+        let line = |cells: Vec<String>| cells.join(",") + "\n";
+        let plain = |cell: &String| if cell == NOTHING { String::new() } else { cell.replace(',', ";") };
+        let headings = self.headings.iter().map(|heading| heading.replace(' ', "_")).collect();
+        let rows = self.rows.iter().map(|row| line(row.iter().map(plain).collect()));
+        std::iter::once(line(headings)).chain(rows).collect()
+    }
+}
+
+/// What stands where nothing was measured.
+const NOTHING: &str = "-";
+
+fn time(ns: f64) -> String {
+    format!("{ns:.3}")
+}
+
+fn small(value: Option<f64>) -> String {
+    value.map_or_else(|| NOTHING.to_owned(), |value| format!("{value:.2e}"))
+}
+
+/// Returns the ladder as a table.
+#[must_use]
+pub fn ladder(rows: &[Row]) -> Table {
+    let cells = |row: &Row| {
+        let share = row.bits_equal.map_or_else(|| NOTHING.to_owned(), |share| format!("{share:.4}"));
+        let law = |read: fn(&crate::cost::law::Law) -> f64| {
+            row.law.as_ref().map_or_else(|| NOTHING.to_owned(), |law| format!("{:.4}", read(law)))
+        };
+        let words = [row.name, row.variant, row.hash, row.join, row.precision, row.tier, row.isa];
+        let numbers = [
+            row.threads.to_string(),
+            time(row.ns_min),
+            time(row.ns_median),
+            format!("{:.2}", row.ratio),
+            share,
+            small(row.error),
+            law(|law| law.ks),
+            law(|law| law.bias),
+            law(|law| law.flips_per_pixel),
+            law(|law| law.flips_per_octave),
+        ];
+        words.map(str::to_owned).into_iter().chain(numbers).collect()
+    };
+    let headings = [
+        "name",
+        "variant",
+        "hash",
+        "join",
+        "precision",
+        "tier",
+        "isa",
+        "threads",
+        "ns min",
+        "ns median",
+        "ratio",
+        "bits equal",
+        "error",
+        "ks",
+        "bias",
+        "flips",
+        "zoom flips",
+    ];
+    Table { headings: headings.to_vec(), rows: rows.iter().map(cells).collect() }
+}
+
+/// Returns the price list as a table.
+#[must_use]
+pub fn prices(prices: &[Price]) -> Table {
+    let cells = |price: &Price| {
+        let over = if price.over == price.name { NOTHING } else { price.over };
+        let words = [price.name, price.source, over].map(str::to_owned);
+        let numbers = [price.ns_min, price.ns_median, price.marginal]
+            .map(time)
+            .into_iter()
+            .chain([format!("{:.2}", price.over_fixed)]);
+        words.into_iter().chain(numbers).collect()
+    };
+    let headings = ["effect", "source", "over", "ns min", "ns median", "marginal ns", "over fixed"];
+    Table { headings: headings.to_vec(), rows: prices.iter().map(cells).collect() }
+}
+
+/// Returns Table 1 of the paper as ratios to the traditional test.
+#[must_use]
+pub fn table_1() -> Table {
+    let ratio = |value: f64| format!("{value:.2}");
+    let cells = |&(scene, [traditional, hashed, stochastic]): &(&str, [f64; 3])| {
+        vec![scene.to_owned(), ratio(hashed / traditional), ratio(stochastic / traditional)]
+    };
+    let [hashed, stochastic] = table_1_ratios().map(|[low, high]| format!("{low:.2} to {high:.2}"));
+    let mut rows: Vec<Vec<String>> = TABLE_1.iter().map(cells).collect();
+    rows.push(vec!["all".to_owned(), hashed, stochastic]);
+    Table {
+        headings: vec!["Table 1 (whole frames)", "hashed over traditional", "stochastic over traditional"],
+        rows,
+    }
+}
+
+/// Returns cost against size as a table.
+#[must_use]
+pub fn sizes(sizes: &[Size]) -> Table {
+    let cells = |size: &Size| {
+        vec![
+            size.samples.to_string(),
+            size.threads.to_string(),
+            format!("{:.5}", size.seconds),
+            time(size.seconds * 1e9 / size.samples as f64),
+            size.peak_kib.map_or_else(|| NOTHING.to_owned(), |kib| format!("{:.1}", kib as f64 / 1024.0)),
+            size.p.map_or_else(|| NOTHING.to_owned(), |p| format!("{p:.3}")),
+        ]
+    };
+    let headings = ["samples", "threads", "seconds", "ns a sample", "peak MiB", "p of chi-square"];
+    Table { headings: headings.to_vec(), rows: sizes.iter().map(cells).collect() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_stand_to_the_right_and_no_cell_breaks_a_line_of_csv() {
+        let table = Table {
+            headings: vec!["a name", "b"],
+            rows: vec![vec!["x, y".into(), "1".into()], vec!["z".into(), "-".into()]],
+        };
+        assert_eq!(table.aligned(), "a name  b\nx, y    1\nz       -\n");
+        assert_eq!(table.csv(), "a_name,b\nx; y,1\nz,\n");
+    }
+
+    #[test]
+    fn the_papers_table_ends_with_its_range() {
+        let table = table_1();
+        assert_eq!(table.rows.len(), 11);
+        assert_eq!(table.rows[10], ["all", "1.02 to 1.36", "1.41 to 4.53"]);
+    }
+}
