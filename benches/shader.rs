@@ -4,9 +4,12 @@
 //! Inputs are the footprints of the oblique scene, 65,536 of them, on all threads.
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use hashed_alpha::scene::Scene;
+use hashed_alpha::scene::{Fragment, Scene};
+use hashed_alpha::shader::assemble::ShaderOptions;
 use hashed_alpha::shader::interpreter::{Column, DeviceModel, Program};
+use hashed_alpha::shader::own::assembled;
 use hashed_alpha::threshold::footprint::Footprint;
+use hashed_alpha::threshold::two_scale::Variant;
 use std::hint::black_box;
 
 const SAMPLES: usize = 1 << 16;
@@ -20,10 +23,15 @@ fn compile(function: &str) -> Program {
     Program::compile(&module, &info, function).expect("it is interpreted")
 }
 
-fn columns() -> Vec<Vec<f32>> {
+fn oblique() -> impl Iterator<Item = Footprint<f64>> {
     let scene = Scene::all().into_iter().find(|scene| scene.name == "oblique").expect("a built-in scene");
+    let footprints: Vec<_> = scene.footprints().step_by(11).take(SAMPLES).collect();
+    footprints.into_iter()
+}
+
+fn columns() -> Vec<Vec<f32>> {
     let mut columns = vec![Vec::new(); 9];
-    for footprint in scene.footprints().step_by(11).take(SAMPLES) {
+    for footprint in oblique() {
         let Footprint::<f32> { position, dpdx, dpdy } = footprint.cast();
         let values = [position, dpdx, dpdy].into_iter().flat_map(|vector| vector.to_array());
         for (column, value) in columns.iter_mut().zip(values) {
@@ -56,6 +64,13 @@ fn all(criterion: &mut Criterion) {
             b.iter(|| program.run(black_box(&cells), lanes, &DeviceModel::ACCURATE));
         });
     }
+    // With what a trial adds: words out of fragments and back.
+    let fragments: Vec<Fragment> = oblique().map(Fragment::from).collect();
+    let shader = assembled("listing", &ShaderOptions::listing(Variant::Isotropic)).expect("it is read");
+    let program = shader.program().expect("it is interpreted");
+    group.bench_function("fragments", |b| {
+        b.iter(|| shader.thresholds(&program, black_box(&fragments), &DeviceModel::ACCURATE));
+    });
     group.bench_function("compile", |b| b.iter(|| compile(black_box("isotropic"))));
     group.finish();
 }

@@ -12,13 +12,13 @@
 use glam::{DVec3, Vec3, dvec2};
 use hashed_alpha::check::parity::Law;
 use hashed_alpha::scene::{Camera, Fragment, Rectangle, Scene};
-use hashed_alpha::shader::assemble::{POSITION, ShaderOptions, assemble};
+use hashed_alpha::shader::assemble::{ShaderOptions, assemble};
 use hashed_alpha::shader::gpu::adapter::{Adapter, adapters};
-use hashed_alpha::shader::gpu::evaluate::Constants;
 use hashed_alpha::shader::gpu::parity::{Class, Report, STAGES, Stage, expected_difference};
 use hashed_alpha::shader::gpu::picture::{self, Pixel};
 use hashed_alpha::shader::gpu::program::drawn_word;
 use hashed_alpha::shader::gpu::{Choice, Device, Error, Evaluator, Kernel};
+use hashed_alpha::shader::own;
 use hashed_alpha::threshold::robust::Robust;
 use hashed_alpha::threshold::two_scale::Variant;
 use libtest_mimic::{Arguments, Failed, Trial};
@@ -184,10 +184,10 @@ fn drawn_words_agree(device: &Device) -> Result<(), Failed> {
 
 fn invalid_shaders_are_errors(device: &Device) -> Result<(), Failed> {
     for (source, what) in [
-        ("fn threshold(position: vec3<f32>) -> f32 {\n    return gloss;\n}", "wgsl:2:12"),
-        ("fn threshold(position: vec3<f32>) -> f32 { return position; }", "threshold"),
+        ("fn twice(x: u32) -> u32 {\n    return gloss;\n}", "wgsl:2:12"),
+        ("fn twice(x: u32) -> f32 { return x; }", "twice"),
     ] {
-        let error = Evaluator::new(device, source, &[POSITION], Constants::default()).err();
+        let error = device.compile(&Kernel::of_words(source, 1, 1, "array(twice(word(0u)))")).err();
         let Some(Error::Validation(message)) = error else {
             return Err(format!("{error:?}").into());
         };
@@ -252,7 +252,7 @@ fn assembled_thresholds_follow(device: &Device) -> Result<(), Failed> {
         })
         .collect();
     let options = ShaderOptions::robust(Variant::Isotropic);
-    let shader = Evaluator::assembled(device, &options, Constants::default())?;
+    let shader = Evaluator::new(device, &own::assembled("robust", &options)?)?;
     let robust = Robust::new(Variant::Isotropic);
     for (fragment, threshold) in fragments.iter().zip(shader.thresholds(&fragments)?) {
         let expected: f32 = robust.threshold(&fragment.footprint.cast())?;

@@ -3,8 +3,8 @@
 use super::Subject;
 use super::subject::Precision;
 use crate::scene::Fragment;
-use crate::shader::interpreter::{Column, DeviceModel, Kind, Program, Stopped, Unsupported, Values};
-use crate::shader::own::{Input, OwnShader, ShaderError};
+use crate::shader::interpreter::DeviceModel;
+use crate::shader::own::{OwnShader, ShaderError};
 use crate::threshold::two_scale::Variant;
 
 /// Puts a shader on trial in the interpreter, under the arithmetic of a device model.
@@ -18,57 +18,10 @@ pub fn interpreted(
     model: DeviceModel,
     variant: Variant,
 ) -> Result<Subject<'static>, ShaderError> {
-    let program = Program::compile(&shader.module, &shader.info, &shader.function)
-        .map_err(|Unsupported { message, span }| shader.error_at(span, message))?;
+    let program = shader.program()?;
     let shader = shader.clone();
-    let thresholds = move |fragments: &[Fragment]| {
-        let owned = columns(&shader, &program, fragments);
-        let columns: Vec<Column<'_>> = owned.iter().map(borrowed).collect();
-        match program.run(&columns, fragments.len(), &model) {
-            Ok(results) => match results.as_slice() {
-                [Values::F32(values)] => Ok(values.iter().copied().map(f64::from).collect()),
-                _ => Err("the function does not return one f32".to_owned()),
-            },
-            Err(Stopped::Endless { span, steps }) => {
-                let message = format!("a loop does not end, or takes more than {steps} steps");
-                Err(shader.error_at(span, message).to_string())
-            }
-            Err(stopped @ Stopped::Arguments(_)) => Err(stopped.to_string()),
-        }
-    };
-    Ok(Subject::batched(name, Precision::F32, variant, thresholds))
-}
-
-/// One column a scalar of the parameters; one value where it is the same in all fragments.
-fn columns(shader: &OwnShader, program: &Program, fragments: &[Fragment]) -> Vec<Values> {
-    let mut columns = Vec::new();
-    for (binding, parameter) in shader.bindings.iter().zip(program.parameters()) {
-        let constant = matches!(binding.input, Input::Constant(_));
-        let rows: Vec<Vec<u32>> = if constant {
-            fragments.first().map(|first| binding.input.words(first)).into_iter().collect()
-        } else {
-            fragments.iter().map(|fragment| binding.input.words(fragment)).collect()
-        };
-        for (component, &kind) in parameter.components.iter().enumerate() {
-            let words = rows.iter().map(|row| row[component]);
-            columns.push(match kind {
-                Kind::F32 => Values::F32(words.map(f32::from_bits).collect()),
-                Kind::I32 => Values::I32(words.map(|word| word as i32).collect()),
-                Kind::U32 => Values::U32(words.collect()),
-                Kind::Bool => Values::Bool(words.map(|word| word != 0).collect()),
-            });
-        }
-    }
-    columns
-}
-
-fn borrowed(values: &Values) -> Column<'_> {
-    match values {
-        Values::F32(values) => Column::F32(values),
-        Values::I32(values) => Column::I32(values),
-        Values::U32(values) => Column::U32(values),
-        Values::Bool(values) => Column::Bool(values),
-    }
+    let thresholds = move |fragments: &[Fragment]| shader.thresholds(&program, fragments, &model);
+    Ok(batched(name, variant, thresholds))
 }
 
 /// Puts a shader on trial on a device.
@@ -83,21 +36,18 @@ pub fn on_device(
     device: &crate::shader::gpu::Device,
     variant: Variant,
 ) -> Result<Subject<'static>, ShaderError> {
-    use crate::shader::gpu::Kernel;
-    let words = shader.words_per_fragment();
-    let expression = format!("array(bitcast<u32>({}))", shader.call());
-    let kernel = Kernel::of_words(&shader.wgsl()?, words.max(1), 1, &expression);
-    let program =
-        device.compile(&kernel).map_err(|error| shader.error_at(naga::Span::UNDEFINED, error.to_string()))?;
-    let shader = shader.clone();
-    let thresholds = move |fragments: &[Fragment]| {
-        let mut packed = shader.words(fragments);
-        if words == 0 {
-            // A storage binding cannot be empty.
-            packed.resize(fragments.len(), 0);
-        }
-        let found = program.map(&packed).map_err(|error| error.to_string())?;
-        Ok(found.into_iter().map(|word| f64::from(f32::from_bits(word))).collect())
-    };
-    Ok(Subject::batched(name, Precision::F32, variant, thresholds))
+    let evaluator = crate::shader::gpu::Evaluator::new(device, shader)
+        .map_err(|error| shader.error_at(naga::Span::UNDEFINED, error.to_string()))?;
+    Ok(batched(name, variant, move |fragments: &[Fragment]| evaluator.thresholds(fragments)))
+}
+
+fn batched<E: core::fmt::Display>(
+    name: impl Into<String>,
+    variant: Variant,
+    thresholds: impl Fn(&[Fragment]) -> Result<Vec<f32>, E> + Send + Sync + 'static,
+) -> Subject<'static> {
+    Subject::batched(name, Precision::F32, variant, move |fragments| {
+        let found = thresholds(fragments).map_err(|error| error.to_string())?;
+        Ok(found.into_iter().map(f64::from).collect())
+    })
 }

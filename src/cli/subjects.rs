@@ -6,7 +6,7 @@ use super::output;
 use hashed_alpha::check::shaders;
 use hashed_alpha::check::{Subject, subject::Precision};
 use hashed_alpha::scene::{Fragment, Scene};
-use hashed_alpha::shader::assemble::{ShaderOptions, assemble};
+use hashed_alpha::shader::assemble::ShaderOptions;
 use hashed_alpha::shader::interpreter::DeviceModel;
 use hashed_alpha::shader::own::{self, Language, OwnShader};
 use hashed_alpha::threshold::robust::{Join, Robust};
@@ -54,8 +54,7 @@ fn built_in(word: &str, args: &ShaderArgs) -> Result<Vec<Subject<'static>>, Fail
     for twin in all {
         let literal = twin.name.starts_with("paper");
         let options = if literal { ShaderOptions::listing } else { ShaderOptions::robust }(twin.variant);
-        let text = assemble(&options).map_err(|error| Failure::Usage(error.to_string()))?;
-        let shader = own::parse(&twin.name, Language::Wgsl, text.as_bytes(), &own::Options::default())?;
+        let shader = own::assembled(&twin.name, &options)?;
         let claims = Claimed {
             variant: twin.variant,
             join: twin.join,

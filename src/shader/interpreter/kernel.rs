@@ -8,10 +8,10 @@
 use super::machine::{Column, LANES, Lanes};
 use super::model::DeviceModel;
 use super::op::{Binary, Unary};
-use crate::threshold::batch::slices::{log2_block, sin_block};
+use crate::threshold::batch::slices::{exp2_block, log2_block, sin_block};
 use crate::threshold::batch::{Block, Isa};
 use crate::threshold::emulated::{Arithmetic, Half};
-use crate::threshold::real::{Real, exp2_f32};
+use crate::threshold::real::Real;
 use core::cell::Cell;
 
 #[inline(always)]
@@ -101,7 +101,7 @@ pub(super) fn unary<const FUSED: bool>(
         Unary::Acosh => wide(to, from, libm::acosh),
         Unary::Atanh => wide(to, from, libm::atanh),
         Unary::Exp => wide(to, from, libm::exp),
-        Unary::Exp2 => floats(to, from, exp2_f32),
+        Unary::Exp2 => blocks(to, from, exp2_block),
         Unary::Ln => wide(to, from, libm::log),
         Unary::Log2 => blocks(to, from, log2_block::<FUSED>),
         Unary::FrexpFraction => floats(to, from, |x| libm::frexpf(x).0),

@@ -6,21 +6,20 @@ use crate::shader::interpreter::{Column, DeviceModel, Program, Stopped, Values};
 use core::fmt::Write as _;
 
 impl Input {
-    /// Returns the words that it takes in one fragment: one a scalar; floats by their bits, rounded to nearest.
-    #[must_use]
-    pub fn words(self, fragment: &Fragment) -> Vec<u32> {
+    /// Returns one of the words that it takes in a fragment, one a scalar; floats by their bits, rounded to nearest.
+    fn word(self, fragment: &Fragment, component: usize) -> u32 {
         let float = |value: f64| (value as f32).to_bits();
         let footprint = &fragment.footprint;
         match self {
-            Self::Position => footprint.position.to_array().map(float).to_vec(),
-            Self::Dpdx => footprint.dpdx.to_array().map(float).to_vec(),
-            Self::Dpdy => footprint.dpdy.to_array().map(float).to_vec(),
-            Self::Pixel => fragment.pixel.to_array().map(float).to_vec(),
-            Self::Texcoord => fragment.texcoord.to_array().map(float).to_vec(),
-            Self::Lod => vec![float(fragment.lod)],
-            Self::Frame => vec![fragment.frame],
-            Self::Layer => vec![fragment.layer],
-            Self::Constant(value) => vec![value.word()],
+            Self::Position => float(footprint.position[component]),
+            Self::Dpdx => float(footprint.dpdx[component]),
+            Self::Dpdy => float(footprint.dpdy[component]),
+            Self::Pixel => float(fragment.pixel[component]),
+            Self::Texcoord => float(fragment.texcoord[component]),
+            Self::Lod => float(fragment.lod),
+            Self::Frame => fragment.frame,
+            Self::Layer => fragment.layer,
+            Self::Constant(value) => value.word(),
         }
     }
 
@@ -59,10 +58,11 @@ impl OwnShader {
                 Input::Constant(Value::I32(value)) => columns.push(Values::I32(vec![value])),
                 Input::Constant(Value::U32(value)) => columns.push(Values::U32(vec![value])),
                 Input::Constant(Value::Bool(value)) => columns.push(Values::Bool(vec![value])),
-                Input::Frame => columns.push(Values::U32(fragments.iter().map(|f| f.frame).collect())),
-                Input::Layer => columns.push(Values::U32(fragments.iter().map(|f| f.layer).collect())),
+                Input::Frame | Input::Layer => {
+                    columns.push(Values::U32(fragments.iter().map(|f| input.word(f, 0)).collect()));
+                }
                 _ => columns.extend((0..input.size()).map(|component| {
-                    let value = |fragment| f32::from_bits(input.words(fragment)[component]);
+                    let value = |fragment| f32::from_bits(input.word(fragment, component));
                     Values::F32(fragments.iter().map(value).collect())
                 })),
             }
@@ -124,7 +124,9 @@ impl OwnShader {
     pub fn words(&self, fragments: &[Fragment]) -> Vec<u32> {
         let mut words = Vec::with_capacity(fragments.len() * self.words_per_fragment());
         for fragment in fragments {
-            words.extend(self.sent().flat_map(|input| input.words(fragment)));
+            for input in self.sent() {
+                words.extend((0..input.size()).map(|component| input.word(fragment, component)));
+            }
         }
         words
     }

@@ -17,6 +17,7 @@ pub use error::{Place, ShaderError};
 pub use setting::Value;
 pub use signature::{Binding, Input};
 
+use super::assemble::{SAMPLE_INDEX, ShaderOptions, assemble};
 use error::Fault;
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{Module, Span};
@@ -158,6 +159,23 @@ pub fn parse(
             Err(ShaderError { file: file.to_owned(), place, message })
         }
     }
+}
+
+/// Makes the verified threshold of `options` ready to run, as if it came from a file; a noise size and a sample index
+/// that it asks for are 1 and 0.
+///
+/// # Errors
+///
+/// [`ShaderError`]: options without a meaning, or with a parameter that a fragment does not know (the lengths of the
+/// texture coordinate's derivatives).
+pub fn assembled(name: &str, options: &ShaderOptions) -> Result<OwnShader, ShaderError> {
+    let text = assemble(options)
+        .map_err(|error| ShaderError { file: name.to_owned(), place: None, message: error.to_string() })?;
+    let mut asked = Options::default();
+    if options.parameters().contains(&SAMPLE_INDEX) {
+        asked.settings.insert(SAMPLE_INDEX.name.to_owned(), "0".to_owned());
+    }
+    parse(name, Language::Wgsl, text.as_bytes(), &asked)
 }
 
 impl OwnShader {

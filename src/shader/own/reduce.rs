@@ -24,6 +24,9 @@ pub(super) struct Reduced {
 /// The name of the function afterwards; no language renames it.
 const NAME: &str = "own_threshold";
 
+/// What stands before every other name of the module afterwards, so that none meets one of the text around it.
+const PREFIX: &str = "its_";
+
 /// Keeps the function that is asked for and what it reads, with every value filled in.
 pub(super) fn reduce(front: Front, options: &Options) -> Result<Reduced, Fault> {
     let Front { mut module, uniforms, initialised, has_derivatives } = front;
@@ -42,7 +45,7 @@ pub(super) fn reduce(front: Front, options: &Options) -> Result<Reduced, Fault> 
             options.function
         )));
     }
-    module.functions[target].name = Some(NAME.to_owned());
+    rename_functions(&mut module, target);
     keep_only(&mut module, target);
     let info = validate(&module)?;
     let (module, _) = process_overrides(&module, &info, None, &constants).map_err(|error| match error {
@@ -55,6 +58,7 @@ pub(super) fn reduce(front: Front, options: &Options) -> Result<Reduced, Fault> 
     naga::compact::compact(&mut module, naga::compact::KeepUnused::No);
     module.entry_points.clear();
     refuse_resources(&module, &stage_inputs, &uniforms)?;
+    rename_the_rest(&mut module);
     let info = validate(&module)?;
     Ok(Reduced { module, info, function: NAME.to_owned(), bindings })
 }
@@ -147,6 +151,39 @@ fn overrides(module: &Module, settings: &mut BTreeMap<String, String>) -> Result
         values.insert(constant.id.map_or_else(|| name.clone(), |id| id.to_string()), value.to_f64());
     }
     Ok(values)
+}
+
+fn rename_functions(module: &mut Module, target: Handle<Function>) {
+    for (handle, function) in module.functions.iter_mut() {
+        function.name = Some(match function.name.take() {
+            _ if handle == target => NAME.to_owned(),
+            name => prefixed(name),
+        });
+    }
+}
+
+/// Renames what messages and values no longer need by its name: variables, constants and structures.
+fn rename_the_rest(module: &mut Module) {
+    for (_, variable) in module.global_variables.iter_mut() {
+        variable.name = Some(prefixed(variable.name.take()));
+    }
+    for (_, constant) in module.constants.iter_mut() {
+        constant.name = Some(prefixed(constant.name.take()));
+    }
+    let structures: Vec<_> = module
+        .types
+        .iter()
+        // Two underscores are naga's own.
+        .filter(|(_, ty)| ty.name.as_ref().is_some_and(|name| !name.starts_with("__")))
+        .map(|(handle, ty)| (handle, naga::Type { name: Some(prefixed(ty.name.clone())), inner: ty.inner.clone() }))
+        .collect();
+    for (handle, ty) in structures {
+        module.types.replace(handle, ty);
+    }
+}
+
+fn prefixed(name: Option<String>) -> String {
+    format!("{PREFIX}{}", name.unwrap_or_default())
 }
 
 /// Puts an entry point that calls `target` in the place of all others.

@@ -1,8 +1,9 @@
 //! The two transcendentals of the listings over whole slices.
 
 use super::isa::{Isa, Job};
+use super::lane::Kernel;
 use super::{BLOCK, Block};
-use crate::threshold::real::{SIN_F32_DOMAIN, log2_everywhere, sin_f32, sin_in_domain};
+use crate::threshold::real::{SIN_F32_DOMAIN, exp2_f32, log2_everywhere, sin_f32, sin_in_domain};
 
 impl Isa {
     /// Writes the sine of every element of `x` (radians) to `out`: bit for bit what
@@ -89,6 +90,30 @@ pub(crate) fn sin_block<const FUSED: bool>(x: &Block<f32>, out: &mut Block<f32>)
 #[inline(always)]
 fn is_within(x: f32) -> bool {
     x.abs() <= SIN_F32_DOMAIN
+}
+
+/// Two to the power of a block, bit for bit what [`exp2_f32`] gives: of octaves, which are whole, by their exponent, of
+/// anything else one by one.
+#[inline(always)]
+pub(crate) fn exp2_block(x: &Block<f32>, out: &mut Block<f32>) {
+    let mut all_octaves = true;
+    for i in 0..BLOCK {
+        out[i] = f32::power(x[i].word() as i32);
+        all_octaves &= is_octave(x[i]);
+    }
+    if !all_octaves {
+        for i in 0..BLOCK {
+            if !is_octave(x[i]) {
+                out[i] = exp2_f32(x[i]);
+            }
+        }
+    }
+}
+
+/// Returns whether two to the power of `x` is a normal number with nothing but an exponent; false for NaN.
+#[inline(always)]
+fn is_octave(x: f32) -> bool {
+    x.abs() <= 126.0 && x.floor() == x
 }
 
 /// The logarithm of a block; see [`Isa::log2`].
