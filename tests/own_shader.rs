@@ -2,6 +2,7 @@
 #![cfg(feature = "shader")]
 
 use hashed_alpha::scene::fragment::Fragment;
+use hashed_alpha::shader::interpreter::DeviceModel;
 use hashed_alpha::shader::own::{
     Input, LARGEST_FILE, Language, Options, OwnShader, Place, Value, parse, read,
 };
@@ -93,7 +94,11 @@ fn what_is_refused_is_named_with_its_place() {
         ("", "own.wgsl: the file is empty"),
         (" \n\t", "own.wgsl: the file is empty"),
         ("fn threshold() -> f32 {\n    return 1.0 +;\n}", "own.wgsl:2:17: "),
-        ("fn threshold() -> f32 {\n    return 1u;\n}", "own.wgsl:2:12: "),
+        ("fn threshold() -> f32 {\n    return 1u;\n}", "own.wgsl:2:5: "),
+        (
+            "fn threshold(position: vec3<f32>) -> f32 {\n  if position.x > 0.0 { return 1.0; }\n  return position;\n}",
+            "own.wgsl:3:3: `threshold` returns a value of another type than f32",
+        ),
         (
             "fn other() -> f32 { return 1.0; }",
             "own.wgsl: there is no function `threshold`; functions are other; it",
@@ -235,6 +240,125 @@ fn deep_nesting_is_a_message() {
         "float threshold(float lod) {{ float x = lod; if (x < 0.0) {{ x = 0.0; }} {elses} return x; }}"
     );
     assert!(glsl(&text, &options(&[])).is_ok());
+}
+
+#[test]
+fn what_would_take_a_parser_down_is_a_message() {
+    let body =
+        |expression: String| format!("fn threshold(position: vec3<f32>) -> f32 {{ return {expression}; }}");
+    let glsl_body = |expression: String| format!("float threshold(vec3 position) {{ return {expression}; }}");
+    let sum = "position.x + ".repeat(100_000) + "1.0";
+    let swizzles = format!("position{}.x", ".xyz".repeat(100_000));
+    for (text, wanted) in [(sum, "10000 operators"), (swizzles, "10000 operators")] {
+        assert!(wgsl(&body(text.clone()), &options(&[])).unwrap_err().contains(wanted));
+        assert!(glsl(&glsl_body(text), &options(&[])).unwrap_err().contains(wanted));
+    }
+    let indices = format!("position{}", "[0]".repeat(100_000));
+    assert!(wgsl(&body(indices), &options(&[])).unwrap_err().contains("10000 operators"));
+    let choices = "position.x > 0.5 ? 1.0 : ".repeat(30_000) + "0.5";
+    assert!(glsl(&glsl_body(choices), &options(&[])).unwrap_err().contains("200 `&&`, `||` or `?`"));
+    let bomb = "#define A0 1.0\n".to_owned()
+        + &(1..40).map(|i| format!("#define A{i} A{0} + A{0}\n", i - 1)).collect::<String>()
+        + &glsl_body("A39".to_owned());
+    let error = glsl(&bomb, &options(&[])).unwrap_err();
+    assert!(error.starts_with("own.glsl:41:41: more than"), "{error}");
+    // What is within the limits is read, and said again, on whatever stack the caller has.
+    let long = "position.x + ".repeat(9_000) + "1.0";
+    assert!(wgsl(&body(long.clone()), &options(&[])).unwrap().wgsl().is_ok());
+    assert!(glsl(&glsl_body(long), &options(&[])).is_ok());
+    let calls = "fn g0(x: f32) -> f32 { return x; }".to_owned()
+        + &(1..300)
+            .map(|i| format!("fn g{i}(x: f32) -> f32 {{ return g{}(x); }}\n", i - 1))
+            .collect::<String>()
+        + &body("g299(position.x)".to_owned());
+    let shader = wgsl(&calls, &options(&[])).unwrap();
+    assert!(shader.program().unwrap_err().to_string().contains("nested more than 200 deep"));
+}
+
+#[test]
+fn names_of_a_file_do_not_meet_those_around_it() {
+    for name in
+        ["word", "number", "element", "given_words", "made_words", "every_element", "own_threshold", "its_x"]
+    {
+        let text = format!(
+            "struct S_{name} {{ {name}: f32 }}
+             var<private> v_{name}: u32 = 3u;
+             const c_{name} = vec2<f32>(1.0, 2.0);
+             fn {name}(k: u32) -> f32 {{ return f32(k) * c_{name}.y; }}
+             fn threshold(position: vec3<f32>) -> f32 {{
+                 var s: S_{name};
+                 s.{name} = {name}(v_{name});
+                 return s.{name} + position.x;
+             }}"
+        );
+        for text in [
+            text.clone(),
+            text.replace("v_", "")
+                .replace(&format!("fn {name}("), "fn other(")
+                .replace(&format!("{name}({name})"), &format!("other({name})")),
+        ] {
+            let shader = wgsl(&text, &options(&[])).unwrap_or_else(|error| panic!("{error}: {text}"));
+            let written = shader.wgsl().unwrap();
+            let declared = |keyword: &str| {
+                let behind: Vec<_> = written.split(keyword).skip(1).collect();
+                behind.into_iter().all(|rest| rest.starts_with("its_") || rest.starts_with("own_threshold("))
+            };
+            assert!(declared("fn ") && declared("struct ") && declared("var<private> "), "{written}");
+            let fragment = Fragment::from(Footprint::<f64> {
+                position: glam::dvec3(0.5, 0.0, 0.0),
+                dpdx: glam::DVec3::ZERO,
+                dpdy: glam::DVec3::ZERO,
+            });
+            let found = shader.thresholds(&shader.program().unwrap(), &[fragment], &DeviceModel::ACCURATE);
+            assert_eq!(found.unwrap(), [6.5], "{text}");
+        }
+    }
+}
+
+#[test]
+fn text_comes_as_editors_save_it() {
+    let text = "// é\nfloat threshold(vec3 position) {\n    return fract(position.x);\n}\n";
+    let wrong = text.replace("fract", "fractal");
+    for (from, to) in [("\n", "\r\n"), ("\n", "\n\n"), ("", "")] {
+        for mark in ["", "\u{feff}"] {
+            let text_of =
+                |text: &str| mark.to_owned() + &text.replace(from, if from.is_empty() { "" } else { to });
+            assert!(glsl(&text_of(text), &options(&[])).is_ok(), "{:?}", text_of(text));
+            let line = if to == "\n\n" { 5 } else { 3 };
+            let error = glsl(&text_of(&wrong), &options(&[])).unwrap_err();
+            assert!(error.starts_with(&format!("own.glsl:{line}:12: ")), "{error}");
+        }
+    }
+    let wgsl_text = "\u{feff}fn threshold() -> f32 { return foo; }";
+    assert!(wgsl(wgsl_text, &options(&[])).unwrap_err().starts_with("own.wgsl:1:32: "));
+    for (text, wanted) in [
+        ("#include <common>\nfloat threshold() { return 1.0; }", "own.glsl:1:1: files are not included"),
+        ("float threshold() { return 1.0; }\n/* open", "own.glsl:2:1: a comment that does not end"),
+        ("float threshold() { return \u{0}1.0; }", "own.glsl:1:28: \"\\0\" is no character of GLSL"),
+        ("float threshold() { return größe; }", "own.glsl:1:30: \"ö\" is no character of GLSL"),
+        ("float threshold() {", "own.glsl:1:20: "),
+    ] {
+        let error = glsl(text, &options(&[])).unwrap_err();
+        assert!(error.starts_with(wanted), "{error}, not {wanted}");
+    }
+    let numbered = "@id(3) override foo: f32;\nfn threshold() -> f32 { return foo; }";
+    assert!(
+        wgsl(numbered, &options(&[])).unwrap_err().contains("override `foo` has no value: --set foo=VALUE")
+    );
+}
+
+#[test]
+fn a_main_may_do_what_only_older_versions_can() {
+    let text = "#version 100
+        varying vec3 v_position;
+        uniform sampler2D u_map;
+        float threshold(vec3 position) { return fract(position.x); }
+        void main() {
+            if (texture2D(u_map, v_position.xy).a < threshold(v_position)) { discard; }
+            gl_FragColor = vec4(1.0);
+        }";
+    let shader = glsl(text, &options(&[])).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(shader.bindings.len(), 1);
 }
 
 #[test]

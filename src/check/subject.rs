@@ -317,6 +317,8 @@ impl<'a> Subject<'a> {
     pub fn thresholds<F: Copy + Into<Fragment> + Sync>(&self, fragments: &[F]) -> Vec<f64> {
         match &self.threshold {
             Evaluation::OneByOne(threshold) => evaluated(threshold, fragments),
+            // What has failed is not run again: it may have taken its time.
+            Evaluation::AllAtOnce(_) if self.failure().is_some() => vec![f64::NAN; fragments.len()],
             Evaluation::AllAtOnce(thresholds) => {
                 let fragments: Vec<Fragment> = fragments.iter().map(|&fragment| fragment.into()).collect();
                 thresholds(&fragments).unwrap_or_else(|reason| {

@@ -3,13 +3,15 @@
 use super::args::CheckArgs;
 use super::failure::Failure;
 use super::known::{self, Known};
-use super::{Ending, output, subjects};
+use super::{Ending, drivers, output, subjects};
 use hashed_alpha::check::claims::{self, Claim};
 use hashed_alpha::check::expectation::{Expectation, Judgement, judge};
 use hashed_alpha::check::results::excuse_the_listings;
 use hashed_alpha::check::{self, Draw, Outcome, Subject, Suite, Verdict};
+use hashed_alpha::report::by_model::by_model;
 use hashed_alpha::report::html::Run;
 use hashed_alpha::report::{directory, json, text};
+use hashed_alpha::shader::interpreter::DeviceModel;
 use indicatif::ProgressBar;
 use std::io::Write;
 use std::path::Path;
@@ -23,6 +25,7 @@ pub fn run(args: &CheckArgs) -> Result<Ending, Failure> {
         [] => &["robust".to_owned()],
         typed => typed,
     };
+    drivers::silence(typed, &args.shader);
     let subjects = subjects::subjects(typed, &args.shader)?;
     let claims = chosen_claims(&args.only)?;
     let known = args.expect.as_deref().map(known::read).transpose()?.unwrap_or_default();
@@ -49,7 +52,9 @@ pub fn run(args: &CheckArgs) -> Result<Ending, Failure> {
     let written = if args.json {
         json::write_json_lines(&outcomes, &mut *results)
     } else {
-        results.write_all(text::table(&outcomes, output::takes_colour()).as_bytes())
+        let models = DeviceModel::ALL.map(|model| model.name());
+        let tables = text::table(&outcomes, output::takes_colour()) + &by_model(&outcomes, &models);
+        results.write_all(tables.as_bytes())
     };
     written.and_then(|()| results.flush()).map_err(Failure::Output)?;
 

@@ -2,13 +2,16 @@
 
 use super::args::CompareArgs;
 use super::failure::Failure;
-use super::{Ending, output, subjects};
+use super::{Ending, drivers, output, subjects};
 use hashed_alpha::check::compare::{Agreement, compare};
 use hashed_alpha::check::{Draw, Subject};
 use std::io::Write;
 
 /// Compares every subject of the first name with its counterpart of the second.
 pub fn run(args: &CompareArgs) -> Result<Ending, Failure> {
+    for typed in [&args.first, &args.second] {
+        drivers::silence(std::slice::from_ref(typed), &args.shader);
+    }
     let [left, right] = [&args.first, &args.second]
         .map(|typed| subjects::subjects(std::slice::from_ref(typed), &args.shader));
     let (left, right) = (left?, right?);

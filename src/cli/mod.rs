@@ -6,6 +6,7 @@
 //! | [`check`], [`compare`], [`eval`], [`scenes`], [`shader`] | one job a verb |
 //! | [`subjects`] | what a typed subject means, and where it runs |
 //! | [`rows`] | footprints as comma-separated text, read and written |
+//! | [`drivers`] | keeps drivers from writing to stderr |
 //! | [`known`] | the TOML list of known findings |
 //! | [`output`] | the two streams: results on stdout, remarks on stderr |
 //! | [`failure`] | everything that ends a job early, as one message |
@@ -15,6 +16,7 @@
 mod args;
 mod check;
 mod compare;
+mod drivers;
 mod eval;
 mod failure;
 mod known;

@@ -47,6 +47,9 @@ fn built_in(word: &str, args: &ShaderArgs) -> Result<Vec<Subject<'static>>, Fail
         )));
     }
     if matches!(on, On::Auto | On::Cpu) {
+        if on == On::Auto {
+            output::remark("note", format_args!("{name} runs on the CPU, in Rust; gpu:{name} runs on a GPU"));
+        }
         return Ok(all);
     }
     all.retain(|subject| subject.precision == Precision::F32);

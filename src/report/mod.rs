@@ -5,6 +5,7 @@
 //! | [`figure`] | `plots` | SVG text out of plain data |
 //! | [`json`] | `cli` | one JSON object a claim |
 //! | [`text`] | `cli` | the table for a terminal, one line a claim |
+//! | [`by_model`] | `cli` | which claims hold on which device models |
 //! | [`html`] | `cli` | one page that needs nothing but the pictures beside it |
 //! | [`directory`] | `cli` | all of that as files |
 //!
@@ -12,6 +13,8 @@
 //! own making, printing, clocks. May import [`check`](crate::check), `scene`, [`threshold`](crate::threshold) and
 //! `stats`; only the command line and the plots import it.
 
+#[cfg(feature = "cli")]
+pub mod by_model;
 #[cfg(feature = "cli")]
 pub mod directory;
 #[cfg(feature = "plots")]

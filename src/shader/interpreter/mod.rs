@@ -88,8 +88,8 @@ struct Constant {
 }
 
 impl Program {
-    /// The steps of a new program: about a second of work.
-    pub const DEFAULT_STEPS: u64 = 1 << 26;
+    /// The steps of a new program: a thousand times those of a listing, a few hundredths of a second.
+    pub const DEFAULT_STEPS: u64 = 1 << 20;
 
     /// Compiles a function, or an entry point, of a module that naga has validated.
     ///

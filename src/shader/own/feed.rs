@@ -1,6 +1,7 @@
 //! From fragments to the values of parameters: as columns for the interpreter, as words for a device.
 
-use super::{Binding, Input, OwnShader, ShaderError, Value};
+use super::error::Fault;
+use super::{Binding, Input, OwnShader, ShaderError, Value, isolated};
 use crate::scene::fragment::Fragment;
 use crate::shader::interpreter::{Column, DeviceModel, Program, Stopped, Values};
 use core::fmt::Write as _;
@@ -105,11 +106,16 @@ impl OwnShader {
     ///
     /// [`ShaderError`]: the module cannot be said in WGSL.
     pub fn wgsl(&self) -> Result<String, ShaderError> {
-        let flags = naga::back::wgsl::WriterFlags::empty();
-        naga::back::wgsl::write_string(&self.module, &self.info, flags).map_err(|error| ShaderError {
+        let (module, info) = (self.module.clone(), self.info.clone());
+        isolated(move || {
+            let flags = naga::back::wgsl::WriterFlags::empty();
+            naga::back::wgsl::write_string(&module, &info, flags)
+                .map_err(|error| Fault::new(format!("it cannot be written as WGSL: {error}")))
+        })
+        .map_err(|Fault { message, .. }| ShaderError {
             file: self.file.clone(),
             place: None,
-            message: format!("it cannot be written as WGSL: {error}"),
+            message,
         })
     }
 

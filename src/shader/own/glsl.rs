@@ -7,6 +7,9 @@
 //! * precision statements, and `highp`, `mediump`, `lowp` everywhere: all is read as 32 bits;
 //! * `const` in front of a parameter;
 //! * a name `in`, which the paper's own listings use, becomes another one;
+//! * the body of a `main`, which does not run;
+//! * `varying`, an older word for `in`;
+//! * declarations of textures;
 //! * `uniform` in front of a plain value, which then waits for one (`--set`);
 //! * derivatives of the position, see [`super::derivative`].
 //!
@@ -14,6 +17,7 @@
 
 use super::derivative;
 use super::error::Fault;
+use super::macros;
 use super::scan::{Token, tokens};
 
 /// Text that naga reads, and what was taken out of it.
@@ -36,9 +40,11 @@ pub(super) struct Prepared {
 /// A derivative of something else than the position, and nesting too deep.
 pub(super) fn prepare(text: &str, function: &str) -> Result<Prepared, Fault> {
     let mut bytes = text.as_bytes().to_vec();
-    let is_es = blank_directives(&mut bytes);
+    let is_es = blank_directives(&mut bytes)?;
     let blanked = String::from_utf8_lossy(&bytes).into_owned();
     let tokens = tokens(&blanked)?;
+    refuse_strange_characters(&tokens, &blanked)?;
+    macros::measure(&blanked, &tokens)?;
     let word = |index: usize| tokens.get(index).map_or("", |token: &Token| &blanked[token.at.clone()]);
     let is_name = |index: usize| word(index).starts_with(|c: char| c.is_ascii_alphabetic() || c == '_');
     let spare = spare_name(&tokens, &blanked);
@@ -60,6 +66,9 @@ pub(super) fn prepare(text: &str, function: &str) -> Result<Prepared, Fault> {
                 if is_plain && is_name(value_type + 1) {
                     blank(token.at.clone());
                     uniforms.push(word(value_type + 1).to_owned());
+                } else if word(value_type + 2) == ";" {
+                    // Textures with a sampler in them are not read at all; the function cannot use them anyway.
+                    blank(token.at.start..tokens[value_type + 2].at.end);
                 }
             }
             "=" if token.function.is_none() && word(index + 1) != "=" => {
@@ -71,9 +80,15 @@ pub(super) fn prepare(text: &str, function: &str) -> Result<Prepared, Fault> {
                 initialised.extend(name.map(str::to_owned));
             }
             "main" if token.function.is_none() && word(index + 1) == "(" => has_main = true,
+            // A varying is an input by its older name.
+            "varying" if token.function.is_none() => {
+                blank(token.at.clone());
+                bytes[token.at.start..token.at.start + 2].copy_from_slice(b"in");
+            }
             _ => {}
         }
     }
+    blank_main(&mut bytes, &tokens, &blanked);
     let has_derivatives = derivative::replace(&mut bytes, &tokens, function)?;
     let prelude = if has_derivatives { derivative::GLSL } else { "" };
     // Nothing but whole characters was replaced, by ASCII.
@@ -84,21 +99,53 @@ pub(super) fn prepare(text: &str, function: &str) -> Result<Prepared, Fault> {
     Ok(Prepared { text: prepared, prelude: prelude.len(), uniforms, initialised, has_derivatives, is_es })
 }
 
+/// Blanks the body of `main`, which does not run and may use what only an older version has.
+fn blank_main(bytes: &mut [u8], tokens: &[Token], text: &str) {
+    let is_main = |name: usize| &text[tokens[name].at.clone()] == "main";
+    let body = tokens.iter().filter(|token| token.function.is_some_and(is_main)).skip(1);
+    let range = body.fold(None, |range: Option<(usize, usize)>, token| {
+        Some((range.map_or(token.at.start, |(start, _)| start), token.at.end))
+    });
+    if let Some((start, end)) = range {
+        bytes[start..end].iter_mut().filter(|byte| !byte.is_ascii_whitespace()).for_each(|byte| *byte = b' ');
+    }
+}
+
+/// Refuses characters that no GLSL has outside of comments.
+fn refuse_strange_characters(tokens: &[Token], text: &str) -> Result<(), Fault> {
+    let is_strange = |word: &str| {
+        !word.is_ascii() || word.bytes().any(|byte| byte.is_ascii_control() || b"@$`'".contains(&byte))
+    };
+    match tokens.iter().find(|token| is_strange(&text[token.at.clone()])) {
+        Some(token) => {
+            let message = format!("{:?} is no character of GLSL", &text[token.at.clone()]);
+            Err(Fault::new(message).at(Some(token.at.clone())))
+        }
+        None => Ok(()),
+    }
+}
+
 /// Blanks directives that only tell a driver something; returns whether the version is one of OpenGL ES.
-fn blank_directives(bytes: &mut [u8]) -> bool {
+fn blank_directives(bytes: &mut [u8]) -> Result<bool, Fault> {
     let mut is_es = false;
+    let mut start = 0;
     for line in bytes.split_mut(|&byte| byte == b'\n') {
+        let at = start..start + line.len();
+        start = at.end + 1;
         let text = String::from_utf8_lossy(line);
         let Some(directive) = text.trim_start().strip_prefix('#') else { continue };
         let mut words = directive.split_whitespace();
         let name = words.next();
+        if name == Some("include") {
+            return Err(Fault::new("files are not included; paste the text of this one").at(Some(at)));
+        }
         if matches!(name, Some("version" | "extension" | "pragma")) {
             let version: Vec<_> = words.collect();
             is_es |= name == Some("version") && (version.contains(&"es") || version.first() == Some(&"100"));
             line.iter_mut().filter(|byte| **byte != b'\r').for_each(|byte| *byte = b' ');
         }
     }
-    is_es
+    Ok(is_es)
 }
 
 /// A name of two letters that the text does not use.

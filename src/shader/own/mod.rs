@@ -8,6 +8,8 @@ mod derivative;
 mod error;
 mod feed;
 mod glsl;
+mod macros;
+mod nesting;
 mod reduce;
 mod scan;
 mod setting;
@@ -18,12 +20,15 @@ pub use setting::Value;
 pub use signature::{Binding, Input};
 
 use super::assemble::{SAMPLE_INDEX, ShaderOptions, assemble};
+use core::ops::Range;
 use error::Fault;
-use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
-use naga::{Module, Span};
+use naga::valid::{Capabilities, FunctionError, ModuleInfo, ValidationError, ValidationFlags, Validator};
+use naga::{Block, Expression, Handle, Module, Span, Statement};
 use std::collections::BTreeMap;
 use std::io::Read;
 use std::path::Path;
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::time::Duration;
 
 /// The largest file that is read.
 pub const LARGEST_FILE: u64 = 4 << 20;
@@ -124,6 +129,7 @@ pub fn parse(
     let mut text = "";
     let text_of = |bytes| {
         core::str::from_utf8(bytes)
+            .map(|text| text.strip_prefix('\u{feff}').unwrap_or(text))
             .map_err(|error| Fault::new(format!("byte {} is not UTF-8", error.valid_up_to() + 1)))
     };
     let mut prelude = 0;
@@ -140,9 +146,13 @@ pub fn parse(
                 text = text_of(bytes)?;
                 read_glsl(text, &options.function, &mut prelude)
             }
-            Language::SpirV => isolated(|| read_spir_v(bytes)),
+            Language::SpirV => {
+                let bytes = bytes.to_vec();
+                isolated(move || read_spir_v(&bytes))
+            }
         }?;
-        isolated(|| reduce::reduce(front, options))
+        let options = options.clone();
+        isolated(move || reduce::reduce(front, &options))
     })();
     match outcome {
         Ok(reduce::Reduced { module, info, function, bindings }) => Ok(OwnShader {
@@ -169,8 +179,11 @@ pub fn parse(
 /// [`ShaderError`]: options without a meaning, or with a parameter that a fragment does not know (the lengths of the
 /// texture coordinate's derivatives).
 pub fn assembled(name: &str, options: &ShaderOptions) -> Result<OwnShader, ShaderError> {
-    let text = assemble(options)
-        .map_err(|error| ShaderError { file: name.to_owned(), place: None, message: error.to_string() })?;
+    let text = assemble(options).map_err(|error| ShaderError {
+        file: name.to_owned(),
+        place: None,
+        message: error.to_string(),
+    })?;
     let mut asked = Options::default();
     if options.parameters().contains(&SAMPLE_INDEX) {
         asked.settings.insert(SAMPLE_INDEX.name.to_owned(), "0".to_owned());
@@ -192,9 +205,9 @@ impl OwnShader {
     }
 }
 
-/// The place of a byte that naga saw; nothing for what was added to the user's text.
+/// The place of a byte that naga saw: nothing for what was put before the user's text, its end for what was put behind.
 fn place(text: &str, prelude: usize, offset: usize) -> Option<Place> {
-    let offset = offset.checked_sub(prelude).filter(|&offset| offset <= text.len() && !text.is_empty())?;
+    let offset = offset.checked_sub(prelude).filter(|_| !text.is_empty())?;
     Some(Place::of(text, offset))
 }
 
@@ -208,16 +221,29 @@ struct Front {
     has_derivatives: bool,
 }
 
-/// Runs a parser on a stack of its own: it descends as the text nests, and where it panics that is a message.
-fn isolated<T: Send>(run: impl FnOnce() -> Result<T, Fault> + Send) -> Result<T, Fault> {
-    const STACK: usize = 64 << 20;
-    std::thread::scope(|scope| {
-        let spawned = std::thread::Builder::new().stack_size(STACK).spawn_scoped(scope, run);
-        match spawned.map(|thread| thread.join()) {
-            Ok(Ok(outcome)) => outcome,
-            Ok(Err(_)) => Err(Fault::new("naga, which reads shaders here, gave up on it without a message")),
-            Err(error) => Err(Fault::new(format!("no thread to read it on: {error}"))),
-        }
+/// Runs naga on a stack of its own, for a limited time: it descends as the text nests, and where it panics or does not
+/// come to an end that is a message.
+fn isolated<T: Send + 'static>(run: impl FnOnce() -> Result<T, Fault> + Send + 'static) -> Result<T, Fault> {
+    const STACK: usize = 256 << 20;
+    const PATIENCE: Duration = Duration::from_secs(60);
+    let (send, outcome) = channel();
+    let work = move || {
+        // Nobody listens any more where the time is over.
+        let _ = send.send(run());
+    };
+    std::thread::Builder::new()
+        .stack_size(STACK)
+        .spawn(work)
+        .map_err(|error| Fault::new(format!("no thread to read it on: {error}")))?;
+    outcome.recv_timeout(PATIENCE).unwrap_or_else(|error| {
+        Err(Fault::new(match error {
+            RecvTimeoutError::Disconnected => {
+                "naga, which reads shaders here, gave up on it without a message".to_owned()
+            }
+            RecvTimeoutError::Timeout => {
+                format!("naga, which reads shaders here, did not come to an end in {PATIENCE:?}")
+            }
+        }))
     })
 }
 
@@ -230,7 +256,7 @@ fn read_wgsl(text: &str, function: &str) -> Result<Front, Fault> {
     if has_derivatives {
         prepared.push_str(derivative::WGSL);
     }
-    isolated(|| {
+    isolated(move || {
         let module = naga::front::wgsl::parse_str(&prepared).map_err(|error| {
             let at = error.labels().next().and_then(|(span, _)| span.to_range());
             let labels =
@@ -247,7 +273,7 @@ fn read_glsl(text: &str, function: &str, prelude: &mut usize) -> Result<Front, F
     let prepared = glsl::prepare(text, function)?;
     *prelude = prepared.prelude;
     // What was prepared has the user's bytes at the user's places; the prelude is not there yet.
-    isolated(|| {
+    isolated(move || {
         let mut options = naga::front::glsl::Options::from(naga::ShaderStage::Fragment);
         if prepared.is_es {
             options.defines.insert("GL_ES".to_owned(), "1".to_owned());
@@ -274,6 +300,9 @@ fn read_spir_v(bytes: &[u8]) -> Result<Front, Fault> {
 
 fn validate(module: &Module) -> Result<ModuleInfo, Fault> {
     Validator::new(ValidationFlags::all(), Capabilities::empty()).validate(module).map_err(|error| {
+        if let Some(fault) = wrong_result(module, error.as_inner()) {
+            return fault;
+        }
         // The shortest is the innermost.
         let at = error.spans().filter_map(|(span, _)| span.to_range()).min_by_key(ExactSizeIterator::len);
         let mut causes = Vec::new();
@@ -283,6 +312,31 @@ fn validate(module: &Module) -> Result<ModuleInfo, Fault> {
             cause = next.source();
         }
         Fault::new(joined(&error.as_inner().to_string(), causes)).at(at)
+    })
+}
+
+/// A value of a wrong type behind `return`: naga names the value by a number, and its place wherever it comes from.
+fn wrong_result(module: &Module, error: &ValidationError) -> Option<Fault> {
+    let ValidationError::Function { handle, name, source } = error else { return None };
+    let FunctionError::InvalidReturnType { expression, expected_ty } = source else { return None };
+    let declared = expected_ty.map_or("nothing".to_owned(), |ty| signature::described(module, ty));
+    let at = return_of(&module.functions[*handle].body, *expression);
+    Some(Fault::new(format!("`{name}` returns a value of another type than {declared}")).at(at))
+}
+
+/// Finds where a value is returned.
+fn return_of(block: &Block, wanted: Option<Handle<Expression>>) -> Option<Range<usize>> {
+    block.span_iter().find_map(|(statement, span)| match statement {
+        Statement::Return { value } if *value == wanted => span.to_range(),
+        Statement::Block(inner) => return_of(inner, wanted),
+        Statement::If { accept, reject, .. } => {
+            return_of(accept, wanted).or_else(|| return_of(reject, wanted))
+        }
+        Statement::Switch { cases, .. } => cases.iter().find_map(|case| return_of(&case.body, wanted)),
+        Statement::Loop { body, continuing, .. } => {
+            return_of(body, wanted).or_else(|| return_of(continuing, wanted))
+        }
+        _ => None,
     })
 }
 

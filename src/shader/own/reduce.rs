@@ -49,7 +49,11 @@ pub(super) fn reduce(front: Front, options: &Options) -> Result<Reduced, Fault> 
     keep_only(&mut module, target);
     let info = validate(&module)?;
     let (module, _) = process_overrides(&module, &info, None, &constants).map_err(|error| match error {
-        PipelineConstantError::MissingValue(name) => {
+        PipelineConstantError::MissingValue(key) => {
+            // One with a number is known to naga by that alone.
+            let numbered =
+                module.overrides.iter().find(|(_, o)| o.id.is_some_and(|id| id.to_string() == key));
+            let name = numbered.and_then(|(_, constant)| constant.name.clone()).unwrap_or(key);
             Fault::new(format!("override `{name}` has no value: --set {name}=VALUE"))
         }
         error => Fault::new(error.to_string()),
@@ -175,7 +179,9 @@ fn rename_the_rest(module: &mut Module) {
         .iter()
         // Two underscores are naga's own.
         .filter(|(_, ty)| ty.name.as_ref().is_some_and(|name| !name.starts_with("__")))
-        .map(|(handle, ty)| (handle, naga::Type { name: Some(prefixed(ty.name.clone())), inner: ty.inner.clone() }))
+        .map(|(handle, ty)| {
+            (handle, naga::Type { name: Some(prefixed(ty.name.clone())), inner: ty.inner.clone() })
+        })
         .collect();
     for (handle, ty) in structures {
         module.types.replace(handle, ty);

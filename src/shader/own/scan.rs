@@ -1,6 +1,7 @@
 //! A shader's text as words and signs, enough to prepare it for the parser: no grammar, no macros.
 
 use super::error::Fault;
+use super::nesting::Nesting;
 use core::ops::Range;
 
 /// A word or a sign of the text, outside of comments.
@@ -13,23 +14,17 @@ pub(super) struct Token {
     pub function: Option<usize>,
 }
 
-/// The deepest nesting of brackets and signs that is read; parsers descend once for each.
-const DEEPEST: usize = 200;
-
-/// The most `else` that are read, since each may nest in the one before.
-const MOST_ELSE: usize = 1000;
-
-/// Cuts a text into tokens: words (letters, digits, `_`) and single signs.
+/// Cuts a text into tokens: words (letters, digits, `_`), numbers and single signs.
 ///
 /// # Errors
 ///
-/// Nesting too deep for a parser that descends.
+/// Nesting too deep for a parser that descends, and a comment that does not end.
 pub(super) fn tokens(text: &str) -> Result<Vec<Token>, Fault> {
     let bytes = text.as_bytes();
     let is_word = |byte: u8| byte.is_ascii_alphanumeric() || byte == b'_';
     let mut tokens: Vec<Token> = Vec::new();
-    let (mut open, mut braces, mut parentheses) = (0_usize, 0_usize, 0_usize);
-    let (mut signs, mut elses) = (0_usize, 0_usize);
+    let (mut braces, mut parentheses) = (0_usize, 0_usize);
+    let mut nesting = Nesting::default();
     let (mut named, mut function) = (None, None);
     let mut start = 0;
     while start < bytes.len() {
@@ -40,13 +35,21 @@ pub(super) fn tokens(text: &str) -> Result<Vec<Token>, Fault> {
                 continue;
             }
             b'/' if rest.starts_with(b"/*") => {
-                start += 2 + until(&rest[2..], b"*/");
+                let length = 2 + until(&rest[2..], b"*/");
+                if length == rest.len() {
+                    return Err(Fault::new("a comment that does not end").at(Some(start..start + 2)));
+                }
+                start += length;
                 continue;
             }
-            byte if byte.is_ascii_whitespace() || !byte.is_ascii() => {
+            byte if byte.is_ascii_whitespace() => {
                 start += 1;
                 continue;
             }
+            byte if byte.is_ascii_digit() => {
+                rest.iter().take_while(|&&byte| is_word(byte) || byte == b'.').count()
+            }
+            byte if !byte.is_ascii() => text[start..].chars().next().map_or(1, char::len_utf8),
             byte if is_word(byte) => rest.iter().take_while(|&&byte| is_word(byte)).count(),
             _ => 1,
         };
@@ -74,18 +77,7 @@ pub(super) fn tokens(text: &str) -> Result<Vec<Token>, Fault> {
             b';' if braces == 0 => named = None,
             _ => {}
         }
-        match bytes[start] {
-            b'(' | b'[' | b'{' => open += 1,
-            b')' | b']' | b'}' => open = open.saturating_sub(1),
-            _ => {}
-        }
-        let is_prefix = matches!(bytes[start], b'-' | b'!' | b'~' | b'&' | b'*' | b'+' | b'<' | b'=');
-        signs = if is_prefix { signs + 1 } else { 0 };
-        elses += usize::from(&bytes[at.clone()] == b"else");
-        if open > DEEPEST || signs > DEEPEST || elses > MOST_ELSE {
-            let message = format!("nested too deeply: more than {DEEPEST} brackets or {MOST_ELSE} `else`");
-            return Err(Fault::new(message).at(Some(at)));
-        }
+        nesting.see(&text[at.clone()]).map_err(|message| Fault::new(message).at(Some(at.clone())))?;
         tokens.push(Token { at, parentheses, function });
         start += length;
     }
@@ -117,5 +109,21 @@ mod tests {
             assert!(tokens(&text).is_err());
         }
         assert!(tokens(&"()".repeat(300)).is_ok());
+    }
+
+    #[test]
+    fn long_statements_are_refused_and_long_lists_are_not() {
+        for text in ["x + ".repeat(20_000), ".xyz".repeat(20_000), "[0]".repeat(20_000), "x && ".repeat(300)]
+        {
+            assert!(tokens(&text).is_err());
+        }
+        assert!(tokens(&"vec2(-0.5, 0.25), ".repeat(9_000)).is_ok());
+        assert!(tokens(&"x += 1.0 - y;".repeat(9_000)).is_ok());
+        assert!(tokens(&"#define X (x + 1.0)\n".repeat(9_000)).is_ok());
+    }
+
+    #[test]
+    fn a_comment_has_an_end() {
+        assert_eq!(tokens("x /* y").unwrap_err().at, Some(2..4));
     }
 }

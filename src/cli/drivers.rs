@@ -1,0 +1,35 @@
+//! Mesa's drivers, kept from writing to stderr.
+
+use super::args::{On, ShaderArgs};
+use hashed_alpha::shader::own::Language;
+use std::path::Path;
+
+/// Switches off the layer with which Mesa orders its Vulkan devices, where one of the subjects may run on a device: without
+/// a display server it complains of `XDG_RUNTIME_DIR`, twice, on everybody's stderr.
+///
+/// The layer reads its switch from the environment that the process began with, so the process begins again.
+#[cfg(unix)]
+pub fn silence(subjects: &[String], args: &ShaderArgs) {
+    use std::os::unix::process::CommandExt;
+    use std::{env, process::Command};
+    const LAYER_OFF: &str = "NODEVICE_SELECT";
+    if !subjects.iter().any(|word| may_need_a_device(word, args.on)) || env::var_os(LAYER_OFF).is_some() {
+        return;
+    }
+    if let Ok(program) = env::current_exe() {
+        // Comes back where it fails; then the complaint is heard.
+        let _ = Command::new(program).args(env::args_os().skip(1)).env(LAYER_OFF, "1").exec();
+    }
+}
+
+/// There is no such layer.
+#[cfg(not(unix))]
+pub fn silence(_: &[String], _: &ShaderArgs) {}
+
+fn may_need_a_device(subject: &str, on: On) -> bool {
+    match on {
+        On::Gpu => true,
+        On::Auto => subject.starts_with("gpu:") || Language::of(Path::new(subject)).is_some(),
+        On::Cpu | On::DeviceModel => subject.starts_with("gpu:"),
+    }
+}
