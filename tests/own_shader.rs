@@ -348,6 +348,31 @@ fn text_comes_as_editors_save_it() {
 }
 
 #[test]
+fn settings_are_macros_where_conditions_ask_for_them() {
+    let text = "#ifdef USE_HASH\nfloat threshold(vec3 position) { return STRENGTH * position.x; }\n#endif
+#if !defined(STRENGTH)\n#define STRENGTH 0.5\n#endif";
+    assert!(glsl(text, &options(&[])).unwrap_err().contains("functions are none"));
+    let shader = glsl(
+        &text.replace("#ifdef", "#if STRENGTH > 1\n#endif\n#ifdef"),
+        &options(&[("USE_HASH", ""), ("STRENGTH", "2")]),
+    );
+    assert!(shader.unwrap().wgsl().unwrap().contains("2"));
+}
+
+#[test]
+fn imports_of_an_engine_are_set_aside() {
+    let text = "#define_import_path my::hash\n#import a::{\n  b,\n  c,\n}\n#import d\n
+fn threshold(position: vec3<f32>) -> f32 { return fract(position.x); }";
+    assert!(wgsl(text, &options(&[])).is_ok());
+    let missing = text.replace("fract", "b");
+    assert!(wgsl(&missing, &options(&[])).unwrap_err().starts_with("own.wgsl:8:51: "));
+    let conditional = format!("#ifdef X\n{text}");
+    assert!(
+        wgsl(&conditional, &options(&[])).unwrap_err().starts_with("own.wgsl:1:1: WGSL has no directives")
+    );
+}
+
+#[test]
 fn a_main_may_do_what_only_older_versions_can() {
     let text = "#version 100
         varying vec3 v_position;

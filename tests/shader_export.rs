@@ -6,6 +6,7 @@
 use hashed_alpha::shader::assemble::{Coverage, FadeIn, ShaderOptions, Source, Stratify};
 use hashed_alpha::shader::export::{Language, export};
 use hashed_alpha::shader::own;
+use hashed_alpha::technique::order::Order;
 use hashed_alpha::threshold::cdf::CdfForm;
 use hashed_alpha::threshold::hash::HashKind;
 use hashed_alpha::threshold::robust::Join;
@@ -74,7 +75,7 @@ fn options() -> Vec<ShaderOptions> {
     }
     let effects = |source| ShaderOptions {
         source,
-        stratify: Some(Stratify { frames: size(8), alternating: true }),
+        stratify: Some(Stratify { frames: size(8), order: Order::Alternating }),
         coverage: Some(Coverage { samples: size(6), decorrelated: true }),
         fade_in: Some(FadeIn { full_noise_lod: 6.0, anisotropy: true }),
         ..ShaderOptions::robust(Variant::Anisotropic)

@@ -4,10 +4,13 @@
 
 use core::num::{NonZeroU16, NonZeroU32};
 use hashed_alpha::scene::fragment::Fragment;
-use hashed_alpha::shader::assemble::{Coverage, FadeIn, ShaderOptions, Source, Stratify, assemble};
+use hashed_alpha::shader::assemble::{
+    Coverage, FadeIn, ScreenDoor, ShaderOptions, Source, Stratify, assemble,
+};
 use hashed_alpha::shader::export::{self, export};
 use hashed_alpha::shader::interpreter::DeviceModel;
 use hashed_alpha::shader::own::{self, OwnShader};
+use hashed_alpha::technique::{order::Order, screen_door};
 use hashed_alpha::threshold::cdf::CdfForm;
 use hashed_alpha::threshold::footprint::Footprint;
 use hashed_alpha::threshold::hash::integer::pcg4d;
@@ -175,15 +178,15 @@ fn effects_twin(
 ) -> f32 {
     let literal = options.source == Source::Listing(CdfForm::Literal);
     let mut value = value;
-    if let Some(Stratify { frames, alternating }) = options.stratify {
+    if let Some(Stratify { frames, order }) = options.stratify {
         let n = NonZeroU32::from(frames);
-        let frame = fragment.frame;
-        value = if literal {
-            let stratum = if alternating { stratify::alternating_literal(frame, n) } else { frame };
-            stratify::stratified_literal(value, stratum, n)
-        } else {
-            let stratum = if alternating { stratify::alternating(frame, n) } else { frame };
-            stratify::stratified(value, stratum, n)
+        let frame = fragment.frame % n;
+        value = match order {
+            Order::Ascending if literal => stratify::stratified_literal(value, frame, n),
+            Order::AlternatingLiteral if literal => {
+                stratify::stratified_literal(value, stratify::alternating_literal(frame, n), n)
+            }
+            _ => order.threshold(value, frame, n),
         };
     }
     if let Some(Coverage { samples, decorrelated }) = options.coverage {
@@ -226,12 +229,17 @@ fn effects_are_the_same_bits() {
         let plain =
             ShaderOptions { source, hash: HashKind::Mm4, ..ShaderOptions::listing(Variant::Isotropic) };
         let base = run(&read(&plain, &[]), &fragments);
+        let orders = if source == Source::Listing(CdfForm::Literal) {
+            &[Order::Ascending, Order::AlternatingLiteral][..]
+        } else {
+            &Order::ALL
+        };
         for frames in [1, 2, 7, 8] {
-            for alternating in [false, true] {
+            for order in orders.iter().copied() {
                 for (decorrelated, anisotropy) in [(false, true), (true, false), (true, true)] {
                     for texel in [[1.0, 1.0], [0.0, 1.0], [0.0, 0.0], [3.0, 0.5], [0.25, 9.0]] {
                         let options = ShaderOptions {
-                            stratify: Some(Stratify { frames: size(frames), alternating }),
+                            stratify: Some(Stratify { frames: size(frames), order }),
                             coverage: Some(Coverage { samples: size(frames + 1), decorrelated }),
                             fade_in: Some(FadeIn { full_noise_lod: 6.0, anisotropy }),
                             ..plain
@@ -254,6 +262,26 @@ fn effects_are_the_same_bits() {
                     }
                 }
             }
+        }
+    }
+}
+
+#[test]
+fn screen_doors_are_the_same_bits() {
+    let mut fragments = fragments(1000);
+    for (index, fragment) in (0..).zip(&mut fragments) {
+        fragment.pixel = glam::dvec2(f64::from(index % 37) + 0.5, f64::from(index / 37) + 0.5);
+    }
+    for door in [ScreenDoor::Fixed, ScreenDoor::Randomised] {
+        let options =
+            ShaderOptions { source: Source::ScreenDoor(door), ..ShaderOptions::listing(Variant::Isotropic) };
+        for (fragment, found) in fragments.iter().zip(run(&read(&options, &[]), &fragments)) {
+            let pixel = fragment.pixel.to_array().map(|c| c as u32);
+            let wanted = match door {
+                ScreenDoor::Fixed => screen_door::fixed(pixel),
+                ScreenDoor::Randomised => screen_door::randomised(pixel, fragment.layer),
+            };
+            assert!(same(found, wanted), "{door:?} {fragment:?}: {found} {wanted}");
         }
     }
 }

@@ -4,8 +4,9 @@
 
 use core::num::NonZeroU16;
 use hashed_alpha::shader::assemble::{
-    Coverage, FadeIn, InvalidOption, ShaderOptions, Source, Stratify, assemble,
+    Coverage, FadeIn, InvalidOption, ScreenDoor, ShaderOptions, Source, Stratify, assemble,
 };
+use hashed_alpha::technique::order::Order;
 use hashed_alpha::threshold::cdf::CdfForm;
 use hashed_alpha::threshold::hash::HashKind;
 use hashed_alpha::threshold::robust::Join;
@@ -23,6 +24,8 @@ fn sources() -> impl Iterator<Item = Source> {
         Source::Stochastic,
         Source::Fixed,
         Source::Regular(size(4)),
+        Source::ScreenDoor(ScreenDoor::Fixed),
+        Source::ScreenDoor(ScreenDoor::Randomised),
     ])
 }
 
@@ -44,14 +47,14 @@ fn plain() -> impl Iterator<Item = ShaderOptions> {
 
 /// Every set of effects on every source.
 fn with_effects() -> impl Iterator<Item = ShaderOptions> {
-    let stratify = [None, Some(false), Some(true)]
-        .map(|choice| choice.map(|alternating| Stratify { frames: size(7), alternating }));
+    let orders = Order::ALL.map(|order| Some(Stratify { frames: size(7), order }));
+    let stratify: Vec<_> = orders.into_iter().chain([None]).collect();
     let coverage = [None, Some(false), Some(true)]
         .map(|choice| choice.map(|decorrelated| Coverage { samples: size(6), decorrelated }));
     let fade_in = [None, Some(false), Some(true)]
         .map(|choice| choice.map(|anisotropy| FadeIn { full_noise_lod: 6.0, anisotropy }));
     sources().flat_map(move |source| {
-        stratify.into_iter().flat_map(move |stratify| {
+        stratify.clone().into_iter().flat_map(move |stratify| {
             coverage.into_iter().flat_map(move |coverage| {
                 fade_in.into_iter().map(move |fade_in| ShaderOptions {
                     source,
@@ -150,6 +153,28 @@ fn what_is_not_asked_for_leaves_no_trace() {
     for word in ["sin(", "lod", "frame", "sample", "pixel:", "hash_scale: f32) -> f32 {\n    return robust"] {
         assert!(!plain.contains(word), "{word}");
     }
+    // Every effect has words of its own: they are in the text with it, and in no other.
+    let stratify = |order| ShaderOptions {
+        stratify: Some(Stratify { frames: size(7), order }),
+        ..ShaderOptions::robust(Variant::Isotropic)
+    };
+    let door = |door| ShaderOptions {
+        source: Source::ScreenDoor(door),
+        ..ShaderOptions::robust(Variant::Isotropic)
+    };
+    for (options, words) in [
+        (stratify(Order::Ascending), &["fn stratified"][..]),
+        (stratify(Order::Alternating), &["fn alternating"]),
+        (stratify(Order::VanDerCorput), &["fn radical_rank"]),
+        (stratify(Order::VanDerCorputLiteral), &["fn radical_inverse", "fn van_der_corput"]),
+        (stratify(Order::PhaseRotated), &["fn rotated(", "fn entered"]),
+        (door(ScreenDoor::Fixed), &["fn ordered", "fn regular"]),
+        (door(ScreenDoor::Randomised), &["fn randomised", "fn door_word"]),
+    ] {
+        let text = assemble(&options).unwrap();
+        assert!(words.iter().all(|word| text.contains(word) && !plain.contains(word)), "{text}");
+    }
+    assert!(!assemble(&stratify(Order::VanDerCorput)).unwrap().contains("fn alternating"));
     let listing = assemble(&ShaderOptions::listing(Variant::Isotropic)).unwrap();
     for word in ["u32", "bitcast", "octave_word", "0.707", "select"] {
         assert!(!listing.contains(word), "{word}");

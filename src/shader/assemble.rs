@@ -4,6 +4,7 @@
 //! and the robust text agree with it in all but the last bits of `log2` and of the divisions; the copula join, which
 //! Rust computes in `f64`, and the sine hash are stated apart where they are tested.
 
+use crate::technique::order::Order;
 use crate::threshold::cdf::CdfForm;
 use crate::threshold::hash::HashKind;
 use crate::threshold::robust::Join;
@@ -27,6 +28,17 @@ pub enum Source {
     Fixed,
     /// The fixed dither of so many samples (Eq. 7).
     Regular(NonZeroU16),
+    /// Strata over tiles of pixels (§3, §8.1).
+    ScreenDoor(ScreenDoor),
+}
+
+/// Which threshold a pixel of a tile of 4 x 4 has, see [`screen_door`](crate::technique::screen_door).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum ScreenDoor {
+    /// The ordered dither, the same in every tile and for every layer.
+    Fixed,
+    /// Strata that are permuted and jittered for each tile and layer.
+    Randomised,
 }
 
 /// Fading noise in with distance (Eqs. 3 to 5).
@@ -43,8 +55,8 @@ pub struct FadeIn {
 pub struct Stratify {
     /// Number of frames that belong together.
     pub frames: NonZeroU16,
-    /// Whether the lower and the upper half of the strata take turns (§7.2.3); in ascending order otherwise.
-    pub alternating: bool,
+    /// Which stratum a frame takes (§7.2.3).
+    pub order: Order,
 }
 
 /// Several thresholds in one fragment (Eqs. 8 and 9).
@@ -113,6 +125,8 @@ impl ShaderOptions {
         let footprint = matches!(self.source, Source::Listing(_) | Source::Robust(_));
         let decorrelated = self.coverage.is_some_and(|coverage| coverage.decorrelated);
         let fresh = self.source == Source::Stochastic || decorrelated;
+        let door = matches!(self.source, Source::ScreenDoor(_));
+        let random_door = self.source == Source::ScreenDoor(ScreenDoor::Randomised);
         let sampled = self.coverage.is_some() || matches!(self.source, Source::Regular(_));
         let anisotropy = self.fade_in.is_some_and(|fade_in| fade_in.anisotropy);
         let all = [
@@ -120,9 +134,9 @@ impl ShaderOptions {
             (footprint, DPDX),
             (footprint, DPDY),
             (footprint && self.hash_scale.is_none(), HASH_SCALE),
-            (fresh, PIXEL),
+            (fresh || door, PIXEL),
             (fresh || self.stratify.is_some(), FRAME),
-            (fresh, LAYER),
+            (fresh || random_door, LAYER),
             (sampled, SAMPLE_INDEX),
             (self.fade_in.is_some(), LOD),
             (anisotropy, TEXEL_DX),
@@ -231,14 +245,8 @@ impl Text {
         {
             stages.push("clamp(value, 1.0e-6, 1.0)".to_owned());
         }
-        if let Some(Stratify { frames, alternating }) = options.stratify {
-            self.stable_or_literal(literal, STRATIFY);
-            if alternating {
-                self.stable_or_literal(literal, ALTERNATING);
-            }
-            let stratum =
-                if alternating { format!("alternating(frame, {frames}u)") } else { "frame".to_owned() };
-            stages.push(format!("stratified(value, {stratum}, {frames}u)"));
+        if let Some(Stratify { frames, order }) = options.stratify {
+            stages.push(self.stratified(literal, order, frames));
         }
         if let Some(Coverage { samples, decorrelated }) = options.coverage {
             self.stable_or_literal(literal, JITTERED);
@@ -264,6 +272,37 @@ impl Text {
             stages.push(format!("fade_in(value, blend({lod}, {full_noise_lod:?}f))"));
         }
         stages
+    }
+
+    /// Adds the chunks of an order of strata and returns the expression of its threshold.
+    fn stratified(&mut self, literal: bool, order: Order, n: NonZeroU16) -> String {
+        if order == Order::VanDerCorputLiteral {
+            add!(self, "clamp_last", "order/radical_inverse", "order/van_der_corput_literal");
+            return format!("van_der_corput(value, frame % {n}u)");
+        }
+        let is_rotated = matches!(order, Order::PhaseRotated | Order::PhaseRotatedVanDerCorput);
+        if is_rotated {
+            add!(self, "clamp_last", "order/rotated");
+        } else {
+            self.stable_or_literal(literal, STRATIFY);
+        }
+        let frame = if is_rotated { format!("entered(value, frame, {n}u)") } else { format!("frame % {n}u") };
+        let stratum = match order {
+            Order::Ascending | Order::VanDerCorputLiteral => frame,
+            Order::AlternatingLiteral => {
+                add!(self, "alternating_literal");
+                format!("alternating({frame}, {n}u)")
+            }
+            Order::Alternating | Order::PhaseRotated => {
+                add!(self, "alternating");
+                format!("alternating({frame}, {n}u)")
+            }
+            Order::VanDerCorput | Order::PhaseRotatedVanDerCorput => {
+                add!(self, "order/radical_rank");
+                format!("radical_rank({frame}, {n}u)")
+            }
+        };
+        format!("{}(value, {stratum}, {n}u)", if is_rotated { "rotated" } else { "stratified" })
     }
 
     fn stable_or_literal(&mut self, literal: bool, [stable_form, literal_form]: [&'static str; 2]) {
@@ -293,6 +332,15 @@ impl Text {
             Source::Regular(samples) => {
                 add!(self, "coverage_regular");
                 format!("regular(sample_index, {samples}u)")
+            }
+            Source::ScreenDoor(ScreenDoor::Fixed) => {
+                add!(self, "coverage_regular", "screen_door/ordered");
+                "regular(ordered(vec2<u32>(pixel)), 16u)".to_owned()
+            }
+            Source::ScreenDoor(ScreenDoor::Randomised) => {
+                add!(self, "clamp_last", "coverage_jittered", "coverage_decorrelated", "rotate", "murmur");
+                add!(self, "open_lattice", "screen_door/ordered", "screen_door/randomised");
+                "randomised(vec2<u32>(pixel), layer)".to_owned()
             }
         }
     }
@@ -362,7 +410,7 @@ impl Text {
         match hash {
             HashKind::Sine => add!(self, "hash/sine", "hash/chi_1"),
             HashKind::SineChi2 => add!(self, "hash/sine", "hash/chi_2"),
-            HashKind::Mm4 => add!(self, "rotate", "hash/mm4"),
+            HashKind::Mm4 => add!(self, "rotate", "murmur", "hash/mm4"),
             HashKind::Xxhash32 => add!(self, "rotate", "hash/xxhash32"),
             HashKind::Pcg3d => add!(self, "hash/pcg3d"),
             HashKind::Pcg4d => add!(self, "pcg_4d", "hash/pcg4d"),
@@ -400,7 +448,6 @@ macro_rules! forms {
 
 forms! {
     STRATIFY = "stratify";
-    ALTERNATING = "alternating";
     JITTERED = "coverage_jittered";
     DECORRELATED = "coverage_decorrelated";
     FADE_IN = "fade_in";

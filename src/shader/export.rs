@@ -4,7 +4,9 @@
 //! that calls it. naga translates the WGSL of [`super::assemble`]; the name `threshold` and those of its parameters
 //! survive in every language.
 
-use super::assemble::{Coverage, FadeIn, InvalidOption, ShaderOptions, Source, Stratify, assemble};
+use super::assemble::{
+    Coverage, FadeIn, InvalidOption, ScreenDoor, ShaderOptions, Source, Stratify, assemble,
+};
 use crate::threshold::hash::{UnknownName, by_name};
 use crate::threshold::two_scale::Variant;
 use core::fmt;
@@ -233,14 +235,17 @@ fn described(options: &ShaderOptions) -> Vec<String> {
         Source::Stochastic => parts.push("stochastic alpha testing (section 4)".to_owned()),
         Source::Fixed => parts.push("the traditional alpha test (section 1)".to_owned()),
         Source::Regular(samples) => parts.push(format!("the fixed dither of {samples} samples (Eq. 7)")),
+        Source::ScreenDoor(ScreenDoor::Fixed) => parts.push("the ordered dither of 4 x 4 pixels".to_owned()),
+        Source::ScreenDoor(ScreenDoor::Randomised) => {
+            parts.push("strata over tiles of 4 x 4 pixels (section 8.1)".to_owned());
+        }
     }
     if matches!(options.source, Source::Listing(_) | Source::Robust(_)) {
         parts.push(format!("hash {}", options.hash));
         parts.extend(options.hash_scale.map(|scale| format!("noise of {scale} pixels")));
     }
-    if let Some(Stratify { frames, alternating }) = options.stratify {
-        let order = if alternating { "alternating" } else { "in order" };
-        parts.push(format!("stratified over {frames} frames {order} (Eq. 6)"));
+    if let Some(Stratify { frames, order }) = options.stratify {
+        parts.push(format!("stratified over {frames} frames, order {} (Eq. 6)", order.name()));
     }
     if let Some(Coverage { samples, decorrelated }) = options.coverage {
         let equation = if decorrelated { "Eqs. 8 and 9" } else { "Eq. 8" };

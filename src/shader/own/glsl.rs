@@ -11,6 +11,7 @@
 //! * `varying`, an older word for `in`;
 //! * declarations of textures;
 //! * `uniform` in front of a plain value, which then waits for one (`--set`);
+//! * a setting whose name stands in an `#if` or `#ifdef` is a macro;
 //! * derivatives of the position, see [`super::derivative`].
 //!
 //! A `main` is appended where there is none.
@@ -19,6 +20,7 @@ use super::derivative;
 use super::error::Fault;
 use super::macros;
 use super::scan::{Token, tokens};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Text that naga reads, and what was taken out of it.
 pub(super) struct Prepared {
@@ -30,7 +32,8 @@ pub(super) struct Prepared {
     /// Names of globals that have an initial value; naga drops those values that it cannot compute.
     pub initialised: Vec<String>,
     pub has_derivatives: bool,
-    pub is_es: bool,
+    /// Macros that are defined before the text: `GL_ES`, and those of the user that it asks for.
+    pub defines: Vec<(String, String)>,
 }
 
 /// Prepares a text whose function to be called is `function`.
@@ -38,9 +41,18 @@ pub(super) struct Prepared {
 /// # Errors
 ///
 /// A derivative of something else than the position, and nesting too deep.
-pub(super) fn prepare(text: &str, function: &str) -> Result<Prepared, Fault> {
+pub(super) fn prepare(
+    text: &str,
+    function: &str,
+    settings: &BTreeMap<String, String>,
+) -> Result<Prepared, Fault> {
     let mut bytes = text.as_bytes().to_vec();
-    let is_es = blank_directives(&mut bytes)?;
+    let mut defines = Vec::new();
+    let Directives { is_es, asked_for } = blank_directives(&mut bytes)?;
+    if is_es {
+        defines.push(("GL_ES".to_owned(), "1".to_owned()));
+    }
+    defines.extend(settings.clone().into_iter().filter(|(name, _)| asked_for.contains(name)));
     let blanked = String::from_utf8_lossy(&bytes).into_owned();
     let tokens = tokens(&blanked)?;
     refuse_strange_characters(&tokens, &blanked)?;
@@ -96,7 +108,7 @@ pub(super) fn prepare(text: &str, function: &str) -> Result<Prepared, Fault> {
     if !has_main {
         prepared.push_str("\nvoid main() {}\n");
     }
-    Ok(Prepared { text: prepared, prelude: prelude.len(), uniforms, initialised, has_derivatives, is_es })
+    Ok(Prepared { text: prepared, prelude: prelude.len(), uniforms, initialised, has_derivatives, defines })
 }
 
 /// Blanks the body of `main`, which does not run and may use what only an older version has.
@@ -125,9 +137,18 @@ fn refuse_strange_characters(tokens: &[Token], text: &str) -> Result<(), Fault> 
     }
 }
 
-/// Blanks directives that only tell a driver something; returns whether the version is one of OpenGL ES.
-fn blank_directives(bytes: &mut [u8]) -> Result<bool, Fault> {
-    let mut is_es = false;
+/// What directives say of the rest of the text.
+#[derive(Default)]
+struct Directives {
+    /// Whether the version is one of OpenGL ES.
+    is_es: bool,
+    /// Words in conditions.
+    asked_for: BTreeSet<String>,
+}
+
+/// Blanks directives that only tell a driver something.
+fn blank_directives(bytes: &mut [u8]) -> Result<Directives, Fault> {
+    let mut directives = Directives::default();
     let mut start = 0;
     for line in bytes.split_mut(|&byte| byte == b'\n') {
         let at = start..start + line.len();
@@ -136,16 +157,21 @@ fn blank_directives(bytes: &mut [u8]) -> Result<bool, Fault> {
         let Some(directive) = text.trim_start().strip_prefix('#') else { continue };
         let mut words = directive.split_whitespace();
         let name = words.next();
+        if matches!(name, Some("if" | "ifdef" | "ifndef" | "elif")) {
+            let words = directive.split(|c: char| !(c.is_ascii_alphanumeric() || c == '_'));
+            directives.asked_for.extend(words.map(str::to_owned));
+        }
         if name == Some("include") {
             return Err(Fault::new("files are not included; paste the text of this one").at(Some(at)));
         }
         if matches!(name, Some("version" | "extension" | "pragma")) {
             let version: Vec<_> = words.collect();
-            is_es |= name == Some("version") && (version.contains(&"es") || version.first() == Some(&"100"));
+            directives.is_es |=
+                name == Some("version") && (version.contains(&"es") || version.first() == Some(&"100"));
             line.iter_mut().filter(|byte| **byte != b'\r').for_each(|byte| *byte = b' ');
         }
     }
-    Ok(is_es)
+    Ok(directives)
 }
 
 /// A name of two letters that the text does not use.

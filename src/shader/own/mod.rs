@@ -144,7 +144,7 @@ pub fn parse(
             }
             Language::Glsl => {
                 text = text_of(bytes)?;
-                read_glsl(text, &options.function, &mut prelude)
+                read_glsl(text, options, &mut prelude)
             }
             Language::SpirV => {
                 let bytes = bytes.to_vec();
@@ -218,7 +218,15 @@ struct Front {
     uniforms: Vec<String>,
     /// Names of variables with an initial value in the text.
     initialised: Vec<String>,
+    /// Settings that were macros.
+    defined: Vec<String>,
     has_derivatives: bool,
+}
+
+impl Front {
+    fn plain(module: Module, has_derivatives: bool) -> Self {
+        Self { module, uniforms: Vec::new(), initialised: Vec::new(), defined: Vec::new(), has_derivatives }
+    }
 }
 
 /// Runs naga on a stack of its own, for a limited time: it descends as the text nests, and where it panics or does not
@@ -250,6 +258,7 @@ fn isolated<T: Send + 'static>(run: impl FnOnce() -> Result<T, Fault> + Send + '
 fn read_wgsl(text: &str, function: &str) -> Result<Front, Fault> {
     let tokens = scan::tokens(text)?;
     let mut bytes = text.as_bytes().to_vec();
+    blank_imports(&mut bytes, &tokens)?;
     let has_derivatives = derivative::replace(&mut bytes, &tokens, function)?;
     // Only ASCII was replaced, by ASCII.
     let mut prepared = String::from_utf8_lossy(&bytes).into_owned();
@@ -265,19 +274,45 @@ fn read_wgsl(text: &str, function: &str) -> Result<Front, Fault> {
             Fault::new(joined(error.message(), labels.chain(notes))).at(at)
         })?;
         validate(&module)?;
-        Ok(Front { module, uniforms: Vec::new(), initialised: Vec::new(), has_derivatives })
+        Ok(Front::plain(module, has_derivatives))
     })
 }
 
-fn read_glsl(text: &str, function: &str, prelude: &mut usize) -> Result<Front, Fault> {
-    let prepared = glsl::prepare(text, function)?;
+/// Blanks the lines by which an engine puts a WGSL file together, `#import` and `#define_import_path`; what they bring is
+/// not here.
+fn blank_imports(bytes: &mut [u8], tokens: &[scan::Token]) -> Result<(), Fault> {
+    let word =
+        |bytes: &[u8], at: usize| tokens.get(at).map_or(Vec::new(), |token| bytes[token.at.clone()].to_vec());
+    for (index, token) in tokens.iter().enumerate() {
+        if word(bytes, index) != b"#" {
+            continue;
+        }
+        if !matches!(&word(bytes, index + 1)[..], b"import" | b"define_import_path") {
+            let message = "WGSL has no directives; those of an engine are to be carried out before";
+            return Err(Fault::new(message).at(Some(token.at.clone())));
+        }
+        let line = bytes[token.at.start..].iter().position(|&byte| byte == b'\n');
+        let mut end = line.map_or(bytes.len(), |length| token.at.start + length);
+        if bytes[token.at.start..end].contains(&b'{') {
+            // A list may go over several lines.
+            let close = bytes[token.at.start..].iter().position(|&byte| byte == b'}');
+            end = end.max(close.map_or(bytes.len(), |length| token.at.start + length + 1));
+        }
+        bytes[token.at.start..end]
+            .iter_mut()
+            .filter(|byte| !byte.is_ascii_whitespace())
+            .for_each(|byte| *byte = b' ');
+    }
+    Ok(())
+}
+
+fn read_glsl(text: &str, asked: &Options, prelude: &mut usize) -> Result<Front, Fault> {
+    let prepared = glsl::prepare(text, &asked.function, &asked.settings)?;
     *prelude = prepared.prelude;
     // What was prepared has the user's bytes at the user's places; the prelude is not there yet.
     isolated(move || {
         let mut options = naga::front::glsl::Options::from(naga::ShaderStage::Fragment);
-        if prepared.is_es {
-            options.defines.insert("GL_ES".to_owned(), "1".to_owned());
-        }
+        options.defines.extend(prepared.defines.iter().cloned());
         let module =
             naga::front::glsl::Frontend::default().parse(&options, &prepared.text).map_err(|errors| {
                 let first = errors.errors.first();
@@ -285,8 +320,9 @@ fn read_glsl(text: &str, function: &str, prelude: &mut usize) -> Result<Front, F
                 Fault::new(first.map_or("it is no GLSL".to_owned(), |error| error.kind.to_string())).at(at)
             })?;
         validate(&module)?;
-        let glsl::Prepared { uniforms, initialised, has_derivatives, .. } = prepared;
-        Ok(Front { module, uniforms, initialised, has_derivatives })
+        let glsl::Prepared { uniforms, initialised, has_derivatives, defines, .. } = prepared;
+        let defined = defines.into_iter().map(|(name, _)| name).collect();
+        Ok(Front { module, uniforms, initialised, defined, has_derivatives })
     })
 }
 
@@ -295,7 +331,7 @@ fn read_spir_v(bytes: &[u8]) -> Result<Front, Fault> {
     let module =
         naga::front::spv::parse_u8_slice(bytes, &options).map_err(|error| Fault::new(error.to_string()))?;
     validate(&module)?;
-    Ok(Front { module, uniforms: Vec::new(), initialised: Vec::new(), has_derivatives: false })
+    Ok(Front::plain(module, false))
 }
 
 fn validate(module: &Module) -> Result<ModuleInfo, Fault> {

@@ -29,8 +29,9 @@ const PREFIX: &str = "its_";
 
 /// Keeps the function that is asked for and what it reads, with every value filled in.
 pub(super) fn reduce(front: Front, options: &Options) -> Result<Reduced, Fault> {
-    let Front { mut module, uniforms, initialised, has_derivatives } = front;
+    let Front { mut module, uniforms, initialised, defined, has_derivatives } = front;
     let mut settings = options.settings.clone();
+    settings.retain(|name, _| !defined.contains(name));
     let stage_inputs = filled_before_main(&module, &initialised);
     let mut target = find(&module, &options.function)?;
     if has_derivatives {

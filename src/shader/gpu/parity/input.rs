@@ -199,6 +199,18 @@ pub(super) fn stratum_off_jumps(index: u32, words: &mut Vec<u32>) {
     }
 }
 
+/// As [`stratum`], where the sum of the number and the share of the stratum that the van der Corput order takes does not
+/// jump.
+pub(super) fn stratum_of_order(index: u32, words: &mut Vec<u32>) {
+    stratum(index, words);
+    if let [.., chi, _, strata] = words.as_mut_slice() {
+        let scaled = f32::from_bits(*chi) * *strata as f32;
+        if (scaled - scaled.round()).abs() < 1.0e-5 {
+            *chi = 0.2718_f32.to_bits();
+        }
+    }
+}
+
 /// Two numbers in (0, 1), an index and a number of strata above it, at most 16.
 pub(super) fn two_and_stratum(index: u32, words: &mut Vec<u32>) {
     push(words, &[unit(index, 33)]);

@@ -2,7 +2,9 @@
 
 use super::input::{self, number, numbers, read_footprint};
 use super::{Class, Stage};
-use crate::shader::assemble::{Coverage, FadeIn, ShaderOptions, Source, Stratify};
+use crate::shader::assemble::{Coverage, FadeIn, ScreenDoor, ShaderOptions, Source, Stratify};
+use crate::technique::order::{Order, radical_inverse};
+use crate::technique::screen_door;
 use crate::threshold::cdf::{CdfForm, cdf, cdf_literal, minor_weight};
 use crate::threshold::hash::{Cell, Hash, HashKind};
 use crate::threshold::hashed::HashedAlpha;
@@ -62,9 +64,11 @@ const FRAMES: NonZeroU16 = NonZeroU16::new(8).unwrap();
 
 /// Every effect, in the form that `source` asks for.
 fn effects(source: Source) -> ShaderOptions {
+    let literal = source == Source::Listing(CdfForm::Literal);
+    let order = if literal { Order::AlternatingLiteral } else { Order::Alternating };
     ShaderOptions {
         source,
-        stratify: Some(Stratify { frames: FRAMES, alternating: true }),
+        stratify: Some(Stratify { frames: FRAMES, order }),
         coverage: Some(Coverage { samples: FRAMES, decorrelated: true }),
         fade_in: Some(FadeIn { full_noise_lod: 6.0, anisotropy: true }),
         ..isotropic()
@@ -77,6 +81,14 @@ fn stable_effects() -> ShaderOptions {
 
 fn literal_effects() -> ShaderOptions {
     effects(Source::Listing(CdfForm::Literal))
+}
+
+fn ordered_by(order: Order) -> ShaderOptions {
+    ShaderOptions { stratify: Some(Stratify { frames: FRAMES, order }), ..stable() }
+}
+
+fn door(door: ScreenDoor) -> ShaderOptions {
+    ShaderOptions { source: Source::ScreenDoor(door), ..isotropic() }
 }
 
 /// Reads the number of strata in word `k`.
@@ -462,6 +474,38 @@ pub const STAGES: &[Stage] = &[
         "f32(alternating(word(1u), word(2u)))", 3, input::stratum,
         |words| stratify::alternating_literal(words[1], strata(words, 2)) as f32,
         ["(n / 2u)", "((n + 1u) / 2u)"]
+    ),
+    number_stage!(
+        "radical inverse", Class::Bits, || ordered_by(Order::VanDerCorputLiteral),
+        "radical_inverse(word(1u))", 3, input::stratum,
+        |words| radical_inverse(words[1], 2) as f32,
+        [">> 8u) * 0x1p-24f", ">> 9u) * 0x1p-24f"]
+    ),
+    number_stage!(
+        "order van der Corput", bounded(0.0, 4.0 / 16_777_216.0, "a quotient of 2.5 ULP below 1, and a sum below 2"),
+        || ordered_by(Order::VanDerCorput),
+        "stratified(number(0u), radical_rank(word(1u), word(2u)), word(2u))", 3, input::stratum_of_order,
+        |words| Order::VanDerCorput.threshold(number(words, 0), words[1], strata(words, 2)),
+        ["reverseBits(other) <", "reverseBits(other) <="]
+    ),
+    number_stage!(
+        "order phase rotated", bounded(2.5, 4.0 / 16_777_216.0, "a quotient of 2.5 ULP; a product that may be fused"), || ordered_by(Order::PhaseRotated),
+        "rotated(number(0u), alternating(entered(number(0u), word(1u), word(2u)), word(2u)), word(2u))",
+        3, input::stratum,
+        |words| Order::PhaseRotated.threshold(number(words, 0), words[1], strata(words, 2)),
+        ["(i + u32(floor(chi * f32(n))) % n) % n", "i % n"]
+    ),
+    number_stage!(
+        "screen door", bounded(2.5, 0.0, "a quotient: 2.5 ULP"), || door(ScreenDoor::Fixed),
+        "regular(ordered(vec2<u32>(word(0u) >> 20u, word(1u) >> 20u)), 16u)", 2, input::faded,
+        |words| screen_door::fixed([words[0] >> 20, words[1] >> 20]),
+        ["place.x ^ place.y", "place.x"]
+    ),
+    number_stage!(
+        "screen door, randomised", bounded(2.5, 0.0, "a quotient: 2.5 ULP"), || door(ScreenDoor::Randomised),
+        "randomised(vec2<u32>(word(0u) >> 4u, word(1u) >> 4u), word(1u))", 2, input::faded,
+        |words| screen_door::randomised([words[0] >> 4, words[1] >> 4], words[1]),
+        ["2u + (pixel.y", "3u + (pixel.y"]
     ),
     number_stage!(
         "regular", bounded(2.5, 0.0, "a quotient: 2.5 ULP"),
