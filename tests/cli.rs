@@ -392,7 +392,10 @@ fn a_scene_that_does_not_exist_is_answered_with_those_that_do() {
 fn a_finding_is_a_rejection_until_it_is_known() {
     let folder = tempfile::tempdir().unwrap();
     let report = folder.path().join("a/report");
-    let output = run(&["check", "paper:isotropic", "--seed", "7", "--out", report.to_str().unwrap()], "");
+    let output = run(
+        &["check", "paper:isotropic", "--seed", "7", "--budget", "quick", "--out", report.to_str().unwrap()],
+        "",
+    );
     assert_eq!(output.status.code(), Some(1), "{output:?}");
     let remarks = String::from_utf8(output.stderr).unwrap();
     assert!(remarks.contains("note: seed 7, "), "{remarks}");
@@ -413,8 +416,18 @@ fn a_finding_is_a_rejection_until_it_is_known() {
     let stale = entry(constant_z, "paper:isotropic", "f64");
     let unmatched = entry(constant_z, "nobody", "f32");
     std::fs::write(&list, [stale, unmatched].concat()).unwrap();
-    let options =
-        ["--seed", "7", "--json", "--no-report", "--suite", "paper", "--expect", list.to_str().unwrap()];
+    let options = [
+        "--seed",
+        "7",
+        "--budget",
+        "quick",
+        "--json",
+        "--no-report",
+        "--suite",
+        "paper",
+        "--expect",
+        list.to_str().unwrap(),
+    ];
     let output = run(&[&["check", "paper:isotropic"][..], &options].concat(), "");
     let remarks = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(0), "{remarks}");
@@ -471,6 +484,82 @@ fn a_shader_file_is_put_on_trial() {
         assert_eq!(output.status.code(), Some(2), "{error}");
         assert!(error.contains(message), "{error}");
     }
+}
+
+/// No driver is found where these point.
+const NO_DRIVERS: [(&str, &str); 3] = [
+    ("VK_DRIVER_FILES", "/nonexistent"),
+    ("VK_ADD_DRIVER_FILES", ""),
+    ("__EGL_VENDOR_LIBRARY_FILENAMES", "/nonexistent"),
+];
+
+const SOUND: &str = "fn threshold(position: vec3<f32>) -> f32 { return 0.5 + 0.0 * min(position.x, 0.0); }";
+
+#[test]
+fn without_a_driver_the_interpreter_steps_in_and_says_so() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("mine.wgsl");
+    std::fs::write(&file, SOUND).unwrap();
+    let options = ["--only", "range.far_from_origin", "--budget", "quick", "--no-report"];
+    let subjects = ["check", "robust:isotropic", file.to_str().unwrap(), "gpu:robust:isotropic"];
+    let output = command(&[&subjects[..], &options].concat()).envs(NO_DRIVERS).output().unwrap();
+    let (results, remarks) =
+        (String::from_utf8(output.stdout).unwrap(), String::from_utf8(output.stderr).unwrap());
+    for remark in [
+        "note: robust:isotropic runs on the CPU, in Rust",
+        "note: mine.wgsl runs in the interpreter: no GPU: looked for any adapter",
+        "unexpected: range.far_from_origin of gpu:robust:isotropic in f32 is unavailable",
+    ] {
+        assert!(remarks.contains(remark), "{remarks}");
+    }
+    assert!(!remarks.contains("XDG_RUNTIME_DIR"), "{remarks}");
+    assert!(results.contains("consistent") && results.contains("no GPU: looked for"), "{results}");
+    assert_eq!(output.status.code(), Some(3), "{remarks}");
+}
+
+/// With a driver, too, nobody but this program writes to stderr.
+#[test]
+fn drivers_are_silent() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("mine.wgsl");
+    std::fs::write(&file, SOUND).unwrap();
+    let options = ["--only", "range.far_from_origin", "--budget", "quick", "--no-report"];
+    let output = command(&[&["check", file.to_str().unwrap()][..], &options].concat())
+        .env_remove("XDG_RUNTIME_DIR")
+        .env_remove("NODEVICE_SELECT")
+        .output()
+        .unwrap();
+    let remarks = String::from_utf8(output.stderr).unwrap();
+    assert!(remarks.lines().all(|line| line.starts_with("note: ")), "{remarks}");
+}
+
+#[test]
+fn a_loop_that_ends_for_some_fragments_only_is_named_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("mine.wgsl");
+    let text = "fn threshold(position: vec3<f32>) -> f32 {
+  var i = 0u;
+  while position.x > 3.0 { i += 1u; }
+  return 0.5;
+}";
+    std::fs::write(&file, text).unwrap();
+    let options = ["--on", "cpu", "--only", "range", "--budget", "quick", "--no-report"];
+    let output = run(&[&["check", file.to_str().unwrap()][..], &options].concat(), "");
+    let results = String::from_utf8(output.stdout).unwrap();
+    assert_eq!(output.status.code(), Some(3), "{results}");
+    assert!(results.contains("mine.wgsl:3:3: a loop does not end"), "{results}");
+}
+
+#[test]
+fn claims_stand_beside_device_models_in_one_table() {
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/shaders/robust_integer.wgsl");
+    let options =
+        ["--on", "device-model", "--only", "range.far_from_origin", "--budget", "quick", "--no-report"];
+    let output = run(&[&["check", file, "--nested-phase"][..], &options].concat(), "");
+    let results = String::from_utf8(output.stdout).unwrap();
+    let heading = "robust_integer.wgsl    accurate  coarse sine  reduced sine  half     flush to zero  fused";
+    let table = results.split_once(heading).unwrap_or_else(|| panic!("{results}")).1;
+    assert!(table.starts_with("\nrange.far_from_origin  holds     holds "), "{results}");
 }
 
 #[test]

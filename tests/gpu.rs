@@ -84,6 +84,7 @@ fn trials() -> Vec<Trial> {
     let found = adapters();
     let mut trials =
         vec![Trial::test("without_a_driver_the_error_says_what_was_looked_for", absence_is_an_error)];
+    trials.push(Trial::test("without_a_driver_trials_are_ignored_with_the_reason", absence_is_ignored));
     for (label, part) in SOFTWARE {
         if found.iter().any(|adapter| has(adapter, part)) {
             trials.extend(trials_of(label, part));
@@ -136,16 +137,29 @@ fn in_child(role: &str, argument: &str, environment: &[(&str, &str)]) -> std::io
     Command::new(env::current_exe()?).arg(argument).env(ROLE, role).envs(environment.iter().copied()).output()
 }
 
+/// No driver is found where these point.
+const NOWHERE: [(&str, &str); 4] = [
+    ("VK_DRIVER_FILES", "/nonexistent"),
+    ("VK_ADD_DRIVER_FILES", ""),
+    ("__EGL_VENDOR_LIBRARY_FILENAMES", "/nonexistent"),
+    ("HASHED_ALPHA_REQUIRE", ""),
+];
+
+fn absence_is_ignored() -> Result<(), Failed> {
+    let output = in_child("trials", "no adapter", &NOWHERE)?;
+    let said = String::from_utf8_lossy(&output.stdout);
+    let lines: Vec<_> = said.lines().filter(|line| line.contains("(no adapter with `")).collect();
+    let are_ignored = lines.iter().all(|line| line.trim_end().ends_with("ignored"));
+    if !output.status.success() || lines.len() != SOFTWARE.len() || !are_ignored {
+        return Err(format!("{output:?}").into());
+    }
+    Ok(())
+}
+
 fn absence_is_an_error() -> Result<(), Failed> {
     let folder = tempfile::tempdir()?;
     let file = folder.path().join("error");
-    // No driver is found where these point.
-    let nowhere = [
-        ("VK_DRIVER_FILES", "/nonexistent"),
-        ("VK_ADD_DRIVER_FILES", ""),
-        ("__EGL_VENDOR_LIBRARY_FILENAMES", "/nonexistent"),
-    ];
-    let output = in_child("absent", &file.display().to_string(), &nowhere)?;
+    let output = in_child("absent", &file.display().to_string(), &NOWHERE)?;
     let error = fs::read_to_string(&file)?;
     if !output.status.success() || !error.contains("Unavailable") || !output.stderr.is_empty() {
         return Err(format!("{error} {output:?}").into());

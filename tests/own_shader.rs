@@ -2,11 +2,14 @@
 #![cfg(feature = "shader")]
 
 use hashed_alpha::scene::fragment::Fragment;
+use hashed_alpha::shader::assemble::ShaderOptions;
+use hashed_alpha::shader::export::{self, export};
 use hashed_alpha::shader::interpreter::DeviceModel;
 use hashed_alpha::shader::own::{
     Input, LARGEST_FILE, Language, Options, OwnShader, Place, Value, parse, read,
 };
 use hashed_alpha::threshold::footprint::Footprint;
+use hashed_alpha::threshold::two_scale::Variant;
 use proptest::prelude::*;
 use std::path::{Path, PathBuf};
 
@@ -226,6 +229,9 @@ fn files_are_limited_and_known_by_their_ending() {
     let unknown = folder.path().join("shader.txt");
     assert!(read(&unknown, &options(&[])).unwrap_err().message.contains(".wgsl, .glsl"));
     assert!(read(&folder.path().join("absent.wgsl"), &options(&[])).is_err());
+    let directory = folder.path().join("directory.wgsl");
+    std::fs::create_dir(&directory).unwrap();
+    assert!(read(&directory, &options(&[])).is_err());
 }
 
 #[test]
@@ -263,7 +269,7 @@ fn what_would_take_a_parser_down_is_a_message() {
     let error = glsl(&bomb, &options(&[])).unwrap_err();
     assert!(error.starts_with("own.glsl:41:41: more than"), "{error}");
     // What is within the limits is read, and said again, on whatever stack the caller has.
-    let long = "position.x + ".repeat(9_000) + "1.0";
+    let long = "position.x + ".repeat(4_900) + "1.0";
     assert!(wgsl(&body(long.clone()), &options(&[])).unwrap().wgsl().is_ok());
     assert!(glsl(&glsl_body(long), &options(&[])).is_ok());
     let calls = "fn g0(x: f32) -> f32 { return x; }".to_owned()
@@ -311,6 +317,24 @@ fn names_of_a_file_do_not_meet_those_around_it() {
             });
             let found = shader.thresholds(&shader.program().unwrap(), &[fragment], &DeviceModel::ACCURATE);
             assert_eq!(found.unwrap(), [6.5], "{text}");
+        }
+    }
+}
+
+#[test]
+fn damaged_spir_v_gives_a_shader_or_a_message() {
+    let whole = export(&ShaderOptions::robust(Variant::Isotropic), export::Language::SpirV).unwrap();
+    let reads = |bytes: &[u8]| parse("own.spv", Language::SpirV, bytes, &options(&[])).is_ok();
+    assert!(reads(&whole));
+    for end in (0..whole.len()).step_by(whole.len() / 40) {
+        assert!(!reads(&whole[..end]), "{end}");
+    }
+    // Counts and identifiers beyond everything.
+    for word in (0..whole.len() / 4).step_by(whole.len() / 4 / 150) {
+        for value in [u32::MAX, 0x7fff_ffff, 0] {
+            let mut bytes = whole.clone();
+            bytes[4 * word..][..4].copy_from_slice(&value.to_le_bytes());
+            let _ = reads(&bytes);
         }
     }
 }

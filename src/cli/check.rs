@@ -32,6 +32,9 @@ pub fn run(args: &CheckArgs) -> Result<Ending, Failure> {
     let folder = (!args.no_report).then_some(args.out.as_path());
     folder.map_or(Ok(()), create)?;
 
+    for word in typed.iter().filter(|word| subjects::is_in_rust(word, args.shader.on)) {
+        output::remark("note", format_args!("{word} runs on the CPU, in Rust"));
+    }
     let draw = Draw { seed: args.seed, budget: args.budget, round: 0 };
     let mut outcomes = tried(&claims, &subjects, &draw);
     if args.suite == Suite::Paper {

@@ -29,6 +29,16 @@ pub fn subjects(typed: &[String], args: &ShaderArgs) -> Result<Vec<Subject<'stat
     Ok(found)
 }
 
+/// Whether a subject is one of this program's own, in Rust.
+pub fn is_in_rust(word: &str, on: On) -> bool {
+    let runs_here = match word.split_once(':') {
+        Some(("gpu", _)) => false,
+        Some(("cpu", _)) => true,
+        _ => matches!(on, On::Auto | On::Cpu),
+    };
+    runs_here && Language::of(Path::new(word)).is_none()
+}
+
 fn built_in(word: &str, args: &ShaderArgs) -> Result<Vec<Subject<'static>>, Failure> {
     let (on, name) = match word.split_once(':') {
         Some(("gpu", name)) => (On::Gpu, name),
@@ -47,9 +57,6 @@ fn built_in(word: &str, args: &ShaderArgs) -> Result<Vec<Subject<'static>>, Fail
         )));
     }
     if matches!(on, On::Auto | On::Cpu) {
-        if on == On::Auto {
-            output::remark("note", format_args!("{name} runs on the CPU, in Rust; gpu:{name} runs on a GPU"));
-        }
         return Ok(all);
     }
     all.retain(|subject| subject.precision == Precision::F32);

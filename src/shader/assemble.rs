@@ -277,7 +277,13 @@ impl Text {
     /// Adds the chunks of an order of strata and returns the expression of its threshold.
     fn stratified(&mut self, literal: bool, order: Order, n: NonZeroU16) -> String {
         if order == Order::VanDerCorputLiteral {
-            add!(self, "clamp_last", "order/radical_inverse", "order/van_der_corput_literal");
+            add!(
+                self,
+                "clamp_last",
+                "order/mirrored",
+                "order/radical_inverse",
+                "order/van_der_corput_literal"
+            );
             return format!("van_der_corput(value, frame % {n}u)");
         }
         let is_rotated = matches!(order, Order::PhaseRotated | Order::PhaseRotatedVanDerCorput);
@@ -298,7 +304,7 @@ impl Text {
                 format!("alternating({frame}, {n}u)")
             }
             Order::VanDerCorput | Order::PhaseRotatedVanDerCorput => {
-                add!(self, "order/radical_rank");
+                add!(self, "order/mirrored", "order/radical_rank");
                 format!("radical_rank({frame}, {n}u)")
             }
         };

@@ -2,7 +2,7 @@
 fn radical_rank(i: u32, n: u32) -> u32 {
     var rank = 0u;
     for (var other = 0u; other < n; other++) {
-        if reverseBits(other) < reverseBits(i) {
+        if mirrored(other) < mirrored(i) {
             rank++;
         }
     }

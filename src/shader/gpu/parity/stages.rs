@@ -150,6 +150,37 @@ macro_rules! threshold_stage {
     };
 }
 
+/// A whole robust threshold of [`input::nine`] numbers, or of those at which it does not jump.
+macro_rules! robust_stage {
+    ($name:literal, $class:expr, $variant:ident, $join:ident, nine, $wrong:tt) => {
+        robust_stage!($name, $class, $variant, $join, (input::nine), $wrong)
+    };
+    ($name:literal, $class:expr, $variant:ident, $join:ident, steady, $wrong:tt) => {
+        robust_stage!(
+            $name,
+            $class,
+            $variant,
+            $join,
+            (|index, words| {
+                input::steady_nine(index, words, &|given, out| {
+                    robust_threshold(Variant::$variant, Join::$join, given, out);
+                });
+            }),
+            $wrong
+        )
+    };
+    ($name:literal, $class:expr, $variant:ident, $join:ident, ($input:expr), $wrong:tt) => {
+        threshold_stage!(
+            $name,
+            $class,
+            || robust(Variant::$variant, Join::$join),
+            $input,
+            |words, out| robust_threshold(Variant::$variant, Join::$join, words, out),
+            $wrong
+        )
+    };
+}
+
 /// A stage whose expression is one number.
 macro_rules! number_stage {
     ($name:literal, $class:expr, $options:expr, $expression:literal, $words:literal, $input:expr,
@@ -372,59 +403,23 @@ pub const STAGES: &[Stage] = &[
         |words, out| listing_threshold(Variant::Anisotropic, HashKind::Mm4, words, out),
         ["0.707", "1.0"]
     ),
-    threshold_stage!(
-        "threshold robust isotropic interpolate", ROBUST,
-        || robust(Variant::Isotropic, Join::Interpolate),
-        input::nine,
-        |words, out| robust_threshold(Variant::Isotropic, Join::Interpolate, words, out),
-        ["scaled - whole >= boundary", "scaled - whole > 1.0 - boundary"]
+    robust_stage!(
+        "threshold robust isotropic interpolate", ROBUST, Isotropic, Interpolate, nine, ["scaled - whole >= boundary", "scaled - whole > 1.0 - boundary"]
     ),
-    threshold_stage!(
-        "threshold robust isotropic copula", COPULA,
-        || robust(Variant::Isotropic, Join::Copula),
-        input::nine,
-        |words, out| robust_threshold(Variant::Isotropic, Join::Copula, words, out),
-        ["sum / sqrt(", "sum * sqrt("]
+    robust_stage!(
+        "threshold robust isotropic copula", COPULA, Isotropic, Copula, nine, ["sum / sqrt(", "sum * sqrt("]
     ),
-    threshold_stage!(
-        "threshold robust isotropic dithered", Class::Bits,
-        || robust(Variant::Isotropic, Join::Dithered),
-        |index, words| {
-            input::steady_nine(index, words, &|given, out| {
-                robust_threshold(Variant::Isotropic, Join::Dithered, given, out);
-            });
-        },
-        |words, out| robust_threshold(Variant::Isotropic, Join::Dithered, words, out),
-        ["^ 0x80000000u", "^ 0x40000000u"]
+    robust_stage!(
+        "threshold robust isotropic dithered", Class::Bits, Isotropic, Dithered, steady, ["^ 0x80000000u", "^ 0x40000000u"]
     ),
-    threshold_stage!(
-        "threshold robust anisotropic interpolate", ROBUST,
-        || robust(Variant::Anisotropic, Join::Interpolate),
-        |index, words| {
-            input::steady_nine(index, words, &|given, out| {
-                robust_threshold(Variant::Anisotropic, Join::Interpolate, given, out);
-            });
-        },
-        |words, out| robust_threshold(Variant::Anisotropic, Join::Interpolate, words, out),
-        ["let to_ceil = length_of(1.0 - fraction)", "let to_ceil = length_of(fraction)"]
+    robust_stage!(
+        "threshold robust anisotropic interpolate", ROBUST, Anisotropic, Interpolate, steady, ["let to_ceil = length_of(1.0 - fraction)", "let to_ceil = length_of(fraction)"]
     ),
-    threshold_stage!(
-        "threshold robust anisotropic copula", COPULA,
-        || robust(Variant::Anisotropic, Join::Copula),
-        input::nine,
-        |words, out| robust_threshold(Variant::Anisotropic, Join::Copula, words, out),
-        ["0x1p-21f", "0x1p-8f"]
+    robust_stage!(
+        "threshold robust anisotropic copula", COPULA, Anisotropic, Copula, nine, ["0x1p-21f", "0x1p-8f"]
     ),
-    threshold_stage!(
-        "threshold robust anisotropic dithered", Class::Bits,
-        || robust(Variant::Anisotropic, Join::Dithered),
-        |index, words| {
-            input::steady_nine(index, words, &|given, out| {
-                robust_threshold(Variant::Anisotropic, Join::Dithered, given, out);
-            });
-        },
-        |words, out| robust_threshold(Variant::Anisotropic, Join::Dithered, words, out),
-        ["axis << 24u", "axis << 25u"]
+    robust_stage!(
+        "threshold robust anisotropic dithered", Class::Bits, Anisotropic, Dithered, steady, ["axis << 24u", "axis << 25u"]
     ),
     number_stage!(
         "blend", bounded(6.0, 0.0, "the square of a quotient of 2.5 ULP"), stable_effects,
@@ -486,7 +481,7 @@ pub const STAGES: &[Stage] = &[
         || ordered_by(Order::VanDerCorput),
         "stratified(number(0u), radical_rank(word(1u), word(2u)), word(2u))", 3, input::stratum_of_order,
         |words| Order::VanDerCorput.threshold(number(words, 0), words[1], strata(words, 2)),
-        ["reverseBits(other) <", "reverseBits(other) <="]
+        ["mirrored(other) <", "mirrored(other) <="]
     ),
     number_stage!(
         "order phase rotated", bounded(2.5, 4.0 / 16_777_216.0, "a quotient of 2.5 ULP; a product that may be fused"), || ordered_by(Order::PhaseRotated),
