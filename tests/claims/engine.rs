@@ -655,7 +655,7 @@ fn door_masks() -> Measured {
     let repeats = share((0..4096).map(|i| {
         let [x, y] = [i % 64, i / 64];
         let threshold: f64 = screen_door::random_mask([x, y], 9);
-        threshold == screen_door::random_mask([x + screen_door::TILE, y], 9)
+        threshold == screen_door::random_mask::<f64>([x + screen_door::TILE, y], 9)
     }));
     let seen = format!(
         "fixed {}; random {}; {} of the thresholds repeat",
