@@ -376,6 +376,6 @@ fn a_stream_counts_as_one_histogram_would() {
 #[test]
 fn columns_know_how_many_footprints_they_hold() {
     let (none, some) = (ColumnBuffer::<f32>::zeroed(0), ColumnBuffer::<f64>::zeroed(3));
-    assert!(none.columns().is_empty() && none.columns().len() == 0);
-    assert!(!some.columns().is_empty() && some.columns().len() == 3);
+    assert!(none.columns().is_empty() && !some.columns().is_empty());
+    assert_eq!([none.columns().len(), some.columns().len()], [0, 3]);
 }

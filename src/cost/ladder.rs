@@ -211,7 +211,7 @@ impl Judge {
             footprints.iter().map(|footprint| threshold(&footprint.cast()).to_f64()).collect()
         };
         let row = Row { precision: R::NAME, tier, ..Row::of_model(name, &model) };
-        let mut out = vec![R::from_f64(0.0); SLICE];
+        let mut out = [R::from_f64(0.0); SLICE];
         let run = move |slice: usize| {
             for (out, footprint) in out.iter_mut().zip(pool.footprints(slice)) {
                 *out = threshold(footprint);
