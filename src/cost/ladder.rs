@@ -188,7 +188,7 @@ impl Judge {
         let tier = if R::NAME == f64::NAME { R::NAME } else { batch.tier.name() };
         let row =
             Row { precision: R::NAME, tier, isa: batch.isa.name(), ..Row::of_model(name, &batch.model) };
-        let mut out = vec![R::from_f64(0.0); SLICE];
+        let mut out = [R::from_f64(0.0); SLICE];
         let run = move |slice: usize| {
             batch.thresholds(&pool.columns(slice), &mut out);
             out[slice % SLICE].to_f64()
@@ -212,7 +212,7 @@ impl Judge {
             footprints.iter().map(|footprint| threshold(&footprint.cast()).to_f64()).collect()
         };
         let row = Row { precision: R::NAME, tier, ..Row::of_model(name, &model) };
-        let mut out = vec![R::from_f64(0.0); SLICE];
+        let mut out = [R::from_f64(0.0); SLICE];
         let run = move |slice: usize| {
             for (out, footprint) in out.iter_mut().zip(pool.footprints(slice)) {
                 *out = threshold(footprint);

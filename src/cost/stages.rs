@@ -31,9 +31,7 @@ impl StageInputs {
             |largest: f32| -> Vec<f32> { (0..SLICE).map(|_| rng.random_range(-largest..largest)).collect() };
         Self {
             angles: (0..slices).map(|_| column(LARGEST_ANGLE)).collect(),
-            scales: (0..slices)
-                .map(|_| column(12.0).into_iter().map(|log| libm::exp2f(log)).collect())
-                .collect(),
+            scales: (0..slices).map(|_| column(12.0).into_iter().map(libm::exp2f).collect()).collect(),
             cells: (0..slices)
                 .map(|_| [(); 3].map(|()| column(LARGEST_INDEX).into_iter().map(f32::floor).collect()))
                 .collect(),
