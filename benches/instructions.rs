@@ -18,6 +18,11 @@ use std::process::ExitCode;
 /// Values that a kernel evaluates.
 const VALUES: usize = 4096;
 
+/// Keeps a value from being optimised away.
+fn see(value: f32) {
+    black_box(value);
+}
+
 /// What is prepared before the count.
 type Kernel = Box<dyn Fn()>;
 
@@ -65,25 +70,11 @@ fn kernels(count: usize) -> Vec<(String, Kernel)> {
     let scales: Vec<f32> = (0..count).map(|i| 0.01 + i as f32 * 0.37).collect();
     let mut all: Vec<(String, Kernel)> = Vec::new();
     for (name, model) in models {
-        all.push((format!("scalar-{name}"), one_by_one::<f32>(model, count)));
+        all.push((format!("scalar-{name}"), one_by_one(model, count)));
     }
     let (x, of_x) = (angles.clone(), scales.clone());
-    all.push((
-        "scalar-sine".to_owned(),
-        Box::new(move || {
-            x.iter().for_each(|&x| {
-                black_box(sin_f32(x));
-            })
-        }),
-    ));
-    all.push((
-        "scalar-logarithm".to_owned(),
-        Box::new(move || {
-            of_x.iter().for_each(|&x| {
-                black_box(log2_f32(x));
-            })
-        }),
-    ));
+    all.push(("scalar-sine".to_owned(), Box::new(move || x.iter().for_each(|&x| see(sin_f32(x))))));
+    all.push(("scalar-logarithm".to_owned(), Box::new(move || of_x.iter().for_each(|&x| see(log2_f32(x))))));
     for isa in [Isa::Portable, Isa::Avx2] {
         for (name, model) in models {
             let batch = Batch { model, tier: Tier::BitExact, isa };
@@ -131,13 +122,9 @@ fn footprints<R: Real>(count: usize) -> impl Iterator<Item = Footprint<R>> {
     })
 }
 
-fn one_by_one<R: Real>(model: Model, count: usize) -> Kernel {
-    let footprints: Vec<Footprint<R>> = footprints(count).collect();
-    Box::new(move || {
-        footprints.iter().for_each(|footprint| {
-            black_box(model.threshold(footprint));
-        })
-    })
+fn one_by_one(model: Model, count: usize) -> Kernel {
+    let footprints: Vec<Footprint<f32>> = footprints(count).collect();
+    Box::new(move || footprints.iter().for_each(|footprint| see(model.threshold(footprint))))
 }
 
 fn in_batch<R: Lane>(batch: Batch, count: usize) -> Kernel {
