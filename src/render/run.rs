@@ -1,0 +1,334 @@
+//! Carries a plan out: one frame, tile by tile, stage by stage over the columns of a tile, and counts what it does.
+
+use super::cost::Cost;
+use super::effects::{Order, Pattern};
+use super::fragments::Fragments;
+use super::picture::{LEAF, Picture, SKY};
+use super::plan::{Plan, Stage, hashes};
+use super::prepare::Scene;
+use super::rasterise::{Screen, TILE};
+use super::study::Shot;
+use super::texture::{Access, Texture};
+use crate::threshold::batch::Batch;
+use crate::threshold::coverage::{decorrelated, jittered, regular};
+use crate::threshold::fade_in::{anisotropy, blend, clamp_last, fade_in};
+use crate::threshold::fixed::passes;
+use crate::threshold::hash::{integer::pcg4d, open_lattice};
+use crate::threshold::stochastic;
+use crate::threshold::stratify::{alternating, stratified};
+use core::num::NonZeroU32;
+use rand::SeedableRng;
+use rand::rngs::Xoshiro256PlusPlus;
+use rayon::prelude::*;
+
+/// One frame as it was drawn.
+#[derive(Clone, Debug, Default)]
+pub struct Frame {
+    /// What is seen.
+    pub picture: Picture,
+    /// Whether a pixel has a fragment at all, row by row.
+    pub touched: Vec<bool>,
+    /// What was counted.
+    pub cost: Cost,
+    /// What the first two layers have in common; zeros unless asked for.
+    pub layers: LayerSums,
+}
+
+/// Sums over the pixels in which two layers or more have an alpha between 0 and 1, the first two by distance.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LayerSums {
+    /// Of the products of what each shows beyond its alpha.
+    pub covariance: f64,
+    /// Of the products of the standard deviations that a fair test would have.
+    pub deviation: f64,
+}
+
+const PIXELS: usize = (TILE * TILE) as usize;
+const NONE: u32 = u32::MAX;
+
+/// What one tile becomes.
+struct TileResult {
+    colour: Vec<[f32; 3]>,
+    coverage: Vec<f32>,
+    touched: Vec<bool>,
+    cost: Cost,
+    layers: LayerSums,
+}
+
+/// Columns beside those of the fragments, kept from tile to tile for their room.
+#[derive(Default)]
+struct Work {
+    fragments: Fragments,
+    access: Vec<Access>,
+    alpha: Vec<f32>,
+    /// One threshold a fragment, or one a sample.
+    threshold: Vec<f32>,
+    /// The samples of each fragment that are kept, a bit each.
+    kept: Vec<u64>,
+}
+
+/// Draws a frame of a shot. The bits do not depend on the number of threads.
+#[must_use]
+pub fn frame(scene: &Scene, textures: &[Texture], plan: &Plan, shot: &Shot, index: u32) -> Frame {
+    let camera = shot.camera(scene, index, plan.places);
+    let screen = Screen::new(&scene.mesh, &camera, f64::from(index), plan.space, plan.needs);
+    let draw = Draw { scene, textures, plan, screen: &screen, frame: index };
+    let tiles: Vec<TileResult> =
+        (0..screen.tiles()).into_par_iter().map_init(Work::default, |work, tile| draw.tile(work, tile)).collect();
+    let mut picture = Picture::sky(camera.resolution);
+    let mut touched = vec![false; picture.coverage.len()];
+    let mut cost = Cost { frames: 1, passes: 1, ..Cost::default() };
+    let mut layers = LayerSums::default();
+    for (tile, result) in tiles.iter().enumerate() {
+        cost += result.cost;
+        layers.covariance += result.layers.covariance;
+        layers.deviation += result.layers.deviation;
+        let ([left, top], [width, height]) = screen.tile(tile);
+        for y in 0..height {
+            let (from, to) = ((y * TILE) as usize, ((top + y) * picture.size[0] + left) as usize);
+            let row = |start: usize| start..start + width as usize;
+            picture.colour[row(to)].copy_from_slice(&result.colour[row(from)]);
+            picture.coverage[row(to)].copy_from_slice(&result.coverage[row(from)]);
+            touched[row(to)].copy_from_slice(&result.touched[row(from)]);
+        }
+    }
+    for stage in &plan.stages {
+        if let Stage::Downsample(side) = stage {
+            picture = picture.downsample(*side);
+            let across = camera.resolution[0] / side;
+            touched = (0..picture.coverage.len() as u32)
+                .map(|at| touched[((at / across * camera.resolution[0] + at % across) * side) as usize])
+                .collect();
+        }
+    }
+    Frame { picture, touched, cost, layers }
+}
+
+/// What all tiles of a frame share.
+struct Draw<'a> {
+    scene: &'a Scene,
+    textures: &'a [Texture],
+    plan: &'a Plan,
+    screen: &'a Screen,
+    frame: u32,
+}
+
+impl Draw<'_> {
+    fn texture(&self, triangle: u32) -> &Texture {
+        &self.textures[self.scene.mesh.triangles[triangle as usize].texture as usize]
+    }
+
+    fn tile(&self, work: &mut Work, tile: usize) -> TileResult {
+        let mut result = TileResult {
+            colour: vec![SKY; PIXELS],
+            coverage: vec![0.0; PIXELS],
+            touched: vec![false; PIXELS],
+            cost: Cost::default(),
+            layers: LayerSums::default(),
+        };
+        // The numbers of a tile are its own, so that the order in which tiles are drawn does not matter.
+        let seed = self.scene.file.seed ^ (u64::from(self.frame) << 32) ^ ((tile as u64) << 8);
+        let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
+        for stage in &self.plan.stages {
+            match stage {
+                Stage::Rasterise(_) => {
+                    self.screen.fragments(tile, &mut work.fragments);
+                    result.cost.fragments += work.fragments.len() as u64;
+                    for &pixel in &work.fragments.pixel {
+                        result.touched[usize::from(pixel)] = true;
+                    }
+                    if work.fragments.is_empty() {
+                        return result;
+                    }
+                }
+                Stage::SampleAlpha(_) => self.sample(work, &mut result.cost),
+                Stage::Fixed(threshold) => {
+                    work.threshold.clear();
+                    work.threshold.resize(work.fragments.len(), *threshold);
+                }
+                Stage::Stochastic => {
+                    work.threshold.clear();
+                    let draws = (0..work.fragments.len()).map(|_| stochastic::threshold::<f32>(&mut rng));
+                    work.threshold.extend(draws);
+                    result.cost.randoms += work.fragments.len() as u64;
+                }
+                Stage::Hash(model, _) => {
+                    work.threshold.clear();
+                    work.threshold.resize(work.fragments.len(), 0.0);
+                    Batch::new(*model).thresholds(&work.fragments.footprint.columns(), &mut work.threshold);
+                    result.cost.hashes += work.threshold.len() as u64 * hashes(model);
+                }
+                Stage::Stratify(frames, order) => {
+                    let stratum = match order {
+                        Order::Ascending => self.frame,
+                        Order::Alternating => alternating(self.frame, *frames),
+                    };
+                    work.threshold.iter_mut().for_each(|t| *t = stratified(*t, stratum, *frames));
+                }
+                Stage::Coverage(samples, pattern) => {
+                    self.cover(work, tile, *samples, *pattern, &mut rng, &mut result.cost);
+                }
+                Stage::FadeIn(full_noise, scaled) => self.fade(work, *full_noise, *scaled),
+                Stage::Clamp => work.threshold.iter_mut().for_each(|t| *t = clamp_last(*t)),
+                Stage::Test => {
+                    test(work, self.plan.samples as usize);
+                    result.cost.tests += work.threshold.len() as u64;
+                }
+                Stage::Resolve { divide } => self.resolve(work, *divide, &mut result),
+                // Made of whole pictures.
+                Stage::Downsample(_) | Stage::Average(_) => {}
+            }
+        }
+        if self.scene.file.layers.is_some() {
+            result.layers = layer_sums(work, self.plan.samples);
+        }
+        result
+    }
+
+    fn sample(&self, work: &mut Work, cost: &mut Cost) {
+        work.access.clear();
+        work.alpha.clear();
+        for at in 0..work.fragments.len() {
+            let texture = self.texture(work.fragments.triangle[at]);
+            let access = self.plan.access(texture, &work.fragments, at);
+            work.alpha.push(texture.alpha(&access, &mut cost.texels));
+            work.access.push(access);
+        }
+    }
+
+    fn cover(
+        &self,
+        work: &mut Work,
+        tile: usize,
+        samples: NonZeroU32,
+        pattern: Pattern,
+        rng: &mut Xoshiro256PlusPlus,
+        cost: &mut Cost,
+    ) {
+        let chi = core::mem::take(&mut work.threshold);
+        let n = samples.get();
+        for at in 0..work.fragments.len() {
+            match pattern {
+                Pattern::Regular => work.threshold.extend((0..n).map(|i| regular::<f32>(i, samples))),
+                Pattern::Jittered => work.threshold.extend((0..n).map(|i| jittered(chi[at], i, samples))),
+                Pattern::Decorrelated => {
+                    let xi = self.pair(&work.fragments, tile, at);
+                    cost.hashes += 1;
+                    let strata = (0..n).map(|i| jittered(chi[at], decorrelated(xi, i, samples), samples));
+                    work.threshold.extend(strata);
+                }
+                Pattern::Independent => {
+                    work.threshold.push(chi[at]);
+                    work.threshold.extend((1..n).map(|_| stochastic::threshold::<f32>(rng)));
+                    cost.randoms += u64::from(n - 1);
+                }
+            }
+        }
+    }
+
+    /// Two numbers in (0, 1) that belong to one fragment of one frame: the twin of the shader's `fragment_pair`.
+    fn pair(&self, fragments: &Fragments, tile: usize, at: usize) -> [f32; 2] {
+        let ([left, top], _) = self.screen.tile(tile);
+        let pixel = u32::from(fragments.pixel[at]);
+        let place = [left + pixel % TILE, top + pixel / TILE];
+        let words = pcg4d([place[0], place[1], self.frame, u32::from(fragments.layer[at])]);
+        [open_lattice(words[1]), open_lattice(words[2])]
+    }
+
+    fn fade(&self, work: &mut Work, full_noise: f32, scaled: bool) {
+        let samples = work.threshold.len() / work.fragments.len();
+        for at in 0..work.fragments.len() {
+            let mut lod = work.access[at].lod;
+            if scaled {
+                let [width, height] = self.texture(work.fragments.triangle[at]).levels[0].size;
+                let texels = glam::vec2(width as f32, height as f32);
+                let along = [work.fragments.dtdx[at], work.fragments.dtdy[at]].map(|d| (d * texels).length());
+                lod *= anisotropy(along);
+            }
+            let share = blend(lod, full_noise);
+            for threshold in &mut work.threshold[at * samples..(at + 1) * samples] {
+                *threshold = fade_in(*threshold, share);
+            }
+        }
+    }
+
+    fn resolve(&self, work: &Work, divide: bool, result: &mut TileResult) {
+        let samples = self.plan.samples as usize;
+        let mut nearest = vec![NONE; PIXELS * samples];
+        for (at, &kept) in work.kept.iter().enumerate() {
+            let pixel = usize::from(work.fragments.pixel[at]);
+            let depth = work.fragments.depth[at];
+            for sample in (0..samples).filter(|sample| kept >> sample & 1 == 1) {
+                let held = &mut nearest[pixel * samples + sample];
+                if *held == NONE || depth < work.fragments.depth[*held as usize] {
+                    *held = at as u32;
+                }
+            }
+        }
+        let share = 1.0 / samples as f32;
+        for (pixel, held) in nearest.chunks_exact(samples).enumerate() {
+            let covered = held.iter().filter(|&&at| at != NONE).count();
+            if covered == 0 {
+                continue;
+            }
+            let mut colour = SKY.map(|c| c * (samples - covered) as f32);
+            let mut last = (NONE, [0.0; 3]);
+            for &at in held.iter().filter(|&&at| at != NONE) {
+                if at != last.0 {
+                    last = (at, self.colour(work, at as usize, divide));
+                }
+                colour = [0, 1, 2].map(|c| colour[c] + last.1[c]);
+            }
+            result.colour[pixel] = colour.map(|sum| sum * share);
+            result.coverage[pixel] = covered as f32 * share;
+        }
+    }
+
+    fn colour(&self, work: &Work, at: usize, divide: bool) -> [f32; 3] {
+        let triangle = work.fragments.triangle[at];
+        let texture = self.texture(triangle);
+        let shade = self.screen.shade(triangle);
+        let colour = match texture.colour(&work.access[at]) {
+            // A fragment that is kept has an alpha above 0.
+            Some(colour) if divide => colour.map(|c| c / work.alpha[at].max(f32::MIN_POSITIVE)),
+            Some(colour) => colour,
+            None => LEAF,
+        };
+        colour.map(|c| (c * shade).min(1.0))
+    }
+}
+
+fn test(work: &mut Work, samples: usize) {
+    work.kept.clear();
+    for (&alpha, thresholds) in work.alpha.iter().zip(work.threshold.chunks_exact(samples)) {
+        let kept = thresholds.iter().enumerate().map(|(i, &t)| u64::from(passes(alpha, t)) << i);
+        work.kept.push(kept.sum());
+    }
+}
+
+fn layer_sums(work: &Work, samples: u32) -> LayerSums {
+    let mut first = vec![[NONE; 2]; PIXELS];
+    let depth = |at: u32| work.fragments.depth[at as usize];
+    for at in 0..work.fragments.len() as u32 {
+        let [near, far] = &mut first[usize::from(work.fragments.pixel[at as usize])];
+        if *near == NONE || depth(at) < depth(*near) {
+            (*far, *near) = (*near, at);
+        } else if *far == NONE || depth(at) < depth(*far) {
+            *far = at;
+        }
+    }
+    let mut sums = LayerSums::default();
+    for pair in first.iter().filter(|pair| pair[1] != NONE) {
+        let alphas = pair.map(|at| f64::from(work.alpha[at as usize]));
+        if alphas.iter().any(|alpha| !(0.01..=0.99).contains(alpha)) {
+            continue;
+        }
+        // Over the samples of the pixel, so that what two layers show at one sample counts.
+        let [a, b] = pair.map(|at| work.kept[at as usize]);
+        let share = |mask: u64| f64::from(mask.count_ones()) / f64::from(samples);
+        let [p, q] = alphas;
+        sums.covariance += share(a & b) - p * share(b) - q * share(a) + p * q;
+        sums.deviation += (p * (1.0 - p) * q * (1.0 - q)).sqrt();
+    }
+    sums
+}

@@ -1,0 +1,204 @@
+//! All takes of a scene, frame by frame, with what is measured of them.
+
+use super::cost::Cost;
+use super::effects::Effects;
+use super::expect::{Checked, check};
+use super::file::Takes;
+use super::metrics::{Measured, Metrics};
+use super::picture::Picture;
+use super::plan::{Plan, Stage, plan};
+use super::prepare::Scene;
+use super::run;
+use super::texture::Texture;
+use super::truth;
+use super::view::Cause;
+use super::{auto, picture};
+use crate::scene::Camera;
+use image::RgbImage;
+use std::collections::VecDeque;
+use std::time::Instant;
+
+/// One series of frames.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shot {
+    /// What moves the camera.
+    pub cause: Cause,
+    /// How far it is, as a multiple of what the scene says.
+    pub distance: f64,
+}
+
+impl Shot {
+    /// Returns the camera of a frame, with `side` x `side` pixels for each pixel of the scene.
+    #[must_use]
+    pub fn camera(&self, scene: &Scene, frame: u32, side: u32) -> Camera {
+        let resolution = scene.file.resolution.map(|pixels| pixels * side);
+        scene.file.camera.camera(f64::from(frame), self.cause, self.distance, resolution)
+    }
+}
+
+/// Returns the shots of a scene: as it is; with each of several causes of motion alone; from each other distance.
+#[must_use]
+pub fn shots(scene: &Scene) -> Vec<Shot> {
+    let mut shots = vec![Shot { cause: Cause::All, distance: 1.0 }];
+    let causes = scene.file.camera.motion.map(|motion| motion.causes()).unwrap_or_default();
+    if causes.len() > 1 && scene.file.frames.get() > 1 {
+        shots.extend(causes.into_iter().map(|cause| Shot { cause, distance: 1.0 }));
+    }
+    let factors = scene.file.distance.iter().flat_map(|distance| &distance.factors);
+    shots.extend(factors.map(|&distance| Shot { cause: Cause::All, distance }));
+    shots
+}
+
+/// What became of one take.
+#[derive(Clone, Debug)]
+pub struct Take {
+    /// What it did.
+    pub plan: Plan,
+    /// What it counted over all shots.
+    pub cost: Cost,
+    /// What was measured.
+    pub metrics: Metrics,
+    /// The mean of the first shot's frames.
+    pub mean: Picture,
+    /// The first frame of every shot, and the second of the first.
+    pub first: Vec<Picture>,
+    /// The frame after the first, where there is one.
+    pub second: Option<Picture>,
+    /// The first shot, frame by frame.
+    pub sequence: Vec<RgbImage>,
+    /// Time that its frames took, in seconds.
+    pub seconds: f64,
+}
+
+/// What became of a scene.
+#[derive(Clone, Debug)]
+pub struct Study {
+    /// Its takes, in the order of the file.
+    pub takes: Vec<Take>,
+    /// The first frame of every shot as it should be, if the scene asks for that.
+    pub truth: Option<Vec<Picture>>,
+    /// What the truth cost.
+    pub truth_cost: Cost,
+    /// What was expected, and whether it came out.
+    pub checked: Vec<Checked>,
+}
+
+/// Returns the effects of every take; the planner's choice where the scene leaves it to the planner.
+#[must_use]
+pub fn effects(scene: &Scene, textures: &[Texture]) -> Vec<Effects> {
+    match &scene.file.effects {
+        Takes::Sets(sets) => sets.clone(),
+        Takes::Auto => vec![auto::choose(scene, textures).effects],
+    }
+}
+
+/// Draws everything. `progress` is told after every picture how many are done and how many there are.
+#[must_use]
+pub fn study(scene: &Scene, progress: &mut dyn FnMut(u64, u64)) -> Study {
+    let straight = scene.textures(false);
+    let plans: Vec<Plan> = effects(scene, &straight).iter().map(plan).collect();
+    let divides = |plan: &Plan| plan.stages.contains(&Stage::Resolve { divide: true });
+    let multiplied = (scene.file.truth.is_some() || plans.iter().any(divides)).then(|| scene.textures(true));
+    let shots = shots(scene);
+    let frames = scene.file.frames.get();
+    let per_frame = plans.len() as u64 + u64::from(scene.file.truth.is_some());
+    let total = shots.len() as u64 * u64::from(frames) * per_frame;
+    let mut done = 0;
+    let mut truths: Option<Vec<Picture>> = scene.file.truth.as_ref().map(|_| Vec::new());
+    let mut truth_cost = Cost::default();
+    let mut takes: Vec<(Take, Measured)> = plans.into_iter().map(|plan| (Take::new(plan), Measured::default())).collect();
+    for shot in &shots {
+        let mut histories = vec![VecDeque::new(); takes.len()];
+        takes.iter_mut().for_each(|(_, measured)| measured.begin());
+        for index in 0..frames {
+            let truth = match (&scene.file.truth, &multiplied) {
+                (Some(truth), Some(textures)) => {
+                    let (picture, cost) = truth::frame(scene, textures, shot, index, truth.samples.get());
+                    truth_cost += cost;
+                    done += 1;
+                    progress(done, total);
+                    Some(picture)
+                }
+                _ => None,
+            };
+            for ((take, measured), history) in takes.iter_mut().zip(&mut histories) {
+                let textures = multiplied.as_deref().filter(|_| divides(&take.plan)).unwrap_or(&straight);
+                take.draw(scene, textures, shot, index, history, measured, truth.as_ref());
+                done += 1;
+                progress(done, total);
+            }
+            if let (Some(truths), Some(truth), 0) = (&mut truths, truth, index) {
+                truths.push(truth);
+            }
+        }
+        for (take, measured) in &mut takes {
+            measured.end(shot, &mut take.metrics);
+        }
+    }
+    let takes: Vec<Take> = takes.into_iter().map(|(take, measured)| take.finish(&measured)).collect();
+    let checked = scene.file.expect.iter().map(|expectation| check(expectation, &takes)).collect();
+    Study { takes, truth: truths, truth_cost, checked }
+}
+
+impl Take {
+    fn new(plan: Plan) -> Self {
+        Self {
+            plan,
+            cost: Cost::default(),
+            metrics: Metrics::default(),
+            mean: Picture::default(),
+            first: Vec::new(),
+            second: None,
+            sequence: Vec::new(),
+            seconds: 0.0,
+        }
+    }
+
+    #[allow(clippy::too_many_arguments)]
+    fn draw(
+        &mut self,
+        scene: &Scene,
+        textures: &[Texture],
+        shot: &Shot,
+        index: u32,
+        history: &mut VecDeque<Picture>,
+        measured: &mut Measured,
+        truth: Option<&Picture>,
+    ) {
+        let begun = Instant::now();
+        let mut frame = run::frame(scene, textures, &self.plan, shot, index);
+        for stage in &self.plan.stages {
+            if let Stage::Average(frames) = stage {
+                history.push_back(frame.picture);
+                if history.len() > frames.get() as usize {
+                    history.pop_front();
+                }
+                frame.picture = Picture::mean(history.iter());
+                frame.cost.blends += frame.picture.coverage.len() as u64;
+            }
+        }
+        self.seconds += begun.elapsed().as_secs_f64();
+        self.cost += frame.cost;
+        let is_first_shot = shot.cause == Cause::All && self.first.len() <= 1 && measured.is_first_shot();
+        if is_first_shot {
+            self.sequence.push(frame.picture.to_rgb());
+        }
+        match index {
+            0 => self.first.push(frame.picture.clone()),
+            1 if is_first_shot => self.second = Some(frame.picture.clone()),
+            _ => {}
+        }
+        measured.add(&frame, truth, scene.file.layers.is_some());
+    }
+
+    fn finish(mut self, measured: &Measured) -> Self {
+        self.mean = measured.mean_of_first_shot();
+        self
+    }
+
+    /// Returns the inverted difference of the first two frames; `None` for a still.
+    #[must_use]
+    pub fn difference(&self) -> Option<RgbImage> {
+        Some(picture::difference(self.first.first()?, self.second.as_ref()?))
+    }
+}
