@@ -8,6 +8,6 @@ use std::process::ExitCode;
 fn main() -> ExitCode {
     match cli::Args::try_parse() {
         Ok(args) => cli::finish(cli::run(&args)),
-        Err(message) => cli::finish(cli::explain(&message)),
+        Err(message) => cli::finish(cli::tell(&message)),
     }
 }

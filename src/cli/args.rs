@@ -4,6 +4,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Parser, Subcommand};
 use hashed_alpha::check::subject::Precision;
 use hashed_alpha::check::{Budget, Suite};
+use hashed_alpha::render::gallery::GALLERY;
 use hashed_alpha::scene::Scene;
 use hashed_alpha::shader::export::Language;
 use hashed_alpha::threshold::hash::HashKind;
@@ -45,6 +46,8 @@ pub enum Verb {
     Check(CheckArgs),
     Compare(CompareArgs),
     Eval(EvalArgs),
+    Explain(ExplainArgs),
+    Render(RenderArgs),
     Scenes(ScenesArgs),
     Shader(ShaderTextArgs),
 }
@@ -270,15 +273,74 @@ pub struct EvalArgs {
     pub trace: bool,
 }
 
-/// Lists the built-in scenes, or prints the footprints of one as CSV
+/// Which scene, and what of it is different this time
+#[derive(Debug, clap::Args)]
+pub struct SceneArgs {
+    /// Scene files (TOML), or names of scenes of the render gallery; `gallery` is all of those
+    #[arg(value_name = "SCENE", required = true)]
+    pub scenes: Vec<String>,
+    /// Width and height of the image in pixels; by default those of the scene
+    #[arg(long, value_name = "WIDTHxHEIGHT", value_parser = resolution)]
+    pub resolution: Option<[u32; 2]>,
+    /// Number of frames; by default that of the scene
+    #[arg(long, value_name = "N")]
+    pub frames: Option<core::num::NonZeroU32>,
+    /// Seed of every random number; by default that of the scene
+    #[arg(long, value_name = "N")]
+    pub seed: Option<u64>,
+}
+
+/// Says what a scene will simulate: stages, what they need, what they cost, and what will not run
 ///
-/// Footprints come in the form that `eval` reads: pixels row by row, and in each pixel the surfaces that it sees.
+/// Only the effects run whose tables the scene file has. Costs are counted quantities; `render` counts the same ones while
+/// it draws.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  hashed-alpha explain grazing-fence
+  hashed-alpha explain my-scene.toml --shader")]
+pub struct ExplainArgs {
+    #[command(flatten)]
+    pub scene: SceneArgs,
+    /// Print the threshold of each take as WGSL, too
+    #[arg(long)]
+    pub shader: bool,
+}
+
+/// Draws scenes, measures the pictures and checks what the scenes expect of them
+///
+/// Writes NAME.png (the takes side by side, the truth last, then enlarged insets and differences), NAME.json and NAME.csv. Exit
+/// code 1 where a scene does not show what it must.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  hashed-alpha render grazing-fence
+  hashed-alpha render gallery --out pictures
+  hashed-alpha scenes grazing-fence > mine.toml && hashed-alpha render mine.toml --sequence")]
+pub struct RenderArgs {
+    #[command(flatten)]
+    pub scene: SceneArgs,
+    /// Folder for pictures and numbers
+    #[arg(long, value_name = "DIR", default_value = "render")]
+    pub out: PathBuf,
+    /// Write the frames of each take as an animated PNG, too
+    #[arg(long)]
+    pub sequence: bool,
+    /// Print one JSON object a scene in place of the table
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Lists the built-in scenes, or prints one
+///
+/// A scene of footprints is printed as CSV, one of the render gallery as a scene file to start from. Footprints come in the form that `eval` reads: pixels row by row, and in each pixel the surfaces that it sees.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
   hashed-alpha scenes
   hashed-alpha scenes fence --resolution 64x48 | hashed-alpha eval
-  hashed-alpha scenes wall --quads > rows.csv")]
+  hashed-alpha scenes wall --quads > rows.csv
+  hashed-alpha scenes grazing-fence > mine.toml")]
 pub struct ScenesArgs {
     /// Scene to print; all are listed when none is given
     #[arg(value_name = "NAME", value_parser = scene_names())]
@@ -304,7 +366,8 @@ where
 }
 
 fn scene_names() -> PossibleValuesParser {
-    PossibleValuesParser::new(Scene::all().into_iter().map(|scene| scene.name))
+    let drawn = GALLERY.iter().map(|entry| entry.name);
+    PossibleValuesParser::new(Scene::all().into_iter().map(|scene| scene.name).chain(drawn))
 }
 
 /// The largest side of an image, in pixels: that of the largest texture of a common GPU.

@@ -1,6 +1,8 @@
 //! Everything that ends a job early, as one message with the place and the way out.
 
 use super::rows::RowError;
+use hashed_alpha::render::file::FileError;
+use hashed_alpha::render::prepare::AssetError;
 use hashed_alpha::report::directory::ReportError;
 use hashed_alpha::shader::own::ShaderError;
 use std::error::Error;
@@ -31,6 +33,12 @@ pub enum Failure {
     /// A shader cannot be put on trial.
     #[error(transparent)]
     Shader(#[from] ShaderError),
+    /// A scene file is wrong.
+    #[error(transparent)]
+    Scene(#[from] FileError),
+    /// What a scene names cannot be used.
+    #[error(transparent)]
+    Asset(#[from] AssetError),
     /// Something that was typed does not have a meaning.
     #[error("{0}")]
     Usage(String),

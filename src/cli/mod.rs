@@ -3,7 +3,8 @@
 //! | module | holds |
 //! |---|---|
 //! | [`args`] | verbs, options and their help |
-//! | [`check`], [`compare`], [`eval`], [`scenes`], [`shader`] | one job a verb |
+//! | [`check`], [`compare`], [`eval`], [`explain`], [`render`], [`scenes`], [`shader`] | one job a verb |
+//! | [`scene_files`] | what a typed scene means |
 //! | [`subjects`] | what a typed subject means, and where it runs |
 //! | [`rows`] | footprints as comma-separated text, read and written |
 //! | [`drivers`] | keeps drivers from writing to stderr |
@@ -18,10 +19,13 @@ mod check;
 mod compare;
 mod drivers;
 mod eval;
+mod explain;
 mod failure;
 mod known;
 mod output;
+mod render;
 mod rows;
+mod scene_files;
 mod scenes;
 mod shader;
 mod subjects;
@@ -52,13 +56,15 @@ pub fn run(args: &Args) -> Result<Ending, Failure> {
         Verb::Check(args) => check::run(args),
         Verb::Compare(args) => compare::run(args),
         Verb::Eval(args) => eval::run(args),
+        Verb::Explain(args) => explain::run(args),
+        Verb::Render(args) => render::run(args),
         Verb::Scenes(args) => scenes::run(args),
         Verb::Shader(args) => shader::run(args),
     }
 }
 
 /// Prints the help that was asked for, or what is wrong with the arguments.
-pub fn explain(message: &clap::Error) -> Result<Ending, Failure> {
+pub fn tell(message: &clap::Error) -> Result<Ending, Failure> {
     message.print().and_then(|()| std::io::stdout().flush()).map_err(Failure::Output)?;
     Ok(if message.use_stderr() { Ending::Usage } else { Ending::Consistent })
 }

@@ -1,4 +1,4 @@
-//! `scenes`: the gallery as a list, or one scene as rows for `eval`.
+//! `scenes`: both galleries as a list, one scene of footprints as rows for `eval`, one of the render gallery as a file.
 
 use super::Ending;
 use super::args::ScenesArgs;
@@ -6,6 +6,7 @@ use super::failure::Failure;
 use super::output;
 use super::rows::{write_header, write_row};
 use hashed_alpha::check::subject::Precision;
+use hashed_alpha::render::gallery;
 use hashed_alpha::scene::Scene;
 use hashed_alpha::threshold::footprint::Footprint;
 use hashed_alpha::threshold::real::Real;
@@ -16,10 +17,13 @@ pub fn run(args: &ScenesArgs) -> Result<Ending, Failure> {
     let output = &mut output::results();
     let written = match &args.name {
         None => write_list(output),
-        Some(name) => Scene::all()
-            .into_iter()
-            .filter(|scene| scene.name == name)
-            .try_for_each(|scene| write_scene(output, scene, args)),
+        Some(name) => match gallery::find(name) {
+            Some(entry) => output.write_all(entry.text.as_bytes()),
+            None => Scene::all()
+                .into_iter()
+                .filter(|scene| scene.name == name)
+                .try_for_each(|scene| write_scene(output, scene, args)),
+        },
     };
     written.and_then(|()| output.flush()).map_err(Failure::Output)?;
     Ok(Ending::Consistent)
@@ -27,8 +31,15 @@ pub fn run(args: &ScenesArgs) -> Result<Ending, Failure> {
 
 fn write_list(output: &mut impl Write) -> io::Result<()> {
     let scenes = Scene::all();
-    let width = scenes.iter().map(|scene| scene.name.len()).max().unwrap_or(0);
-    scenes.iter().try_for_each(|scene| writeln!(output, "{:width$}  {}", scene.name, scene.description))
+    let drawn = gallery::GALLERY;
+    let names = scenes.iter().map(|scene| scene.name).chain(drawn.iter().map(|entry| entry.name));
+    let width = names.map(str::len).max().unwrap_or(0);
+    writeln!(output, "footprints, for eval:")?;
+    for scene in &scenes {
+        writeln!(output, "{:width$}  {}", scene.name, scene.description)?;
+    }
+    writeln!(output, "pictures, for explain and render:")?;
+    drawn.iter().try_for_each(|entry| writeln!(output, "{:width$}  {}", entry.name, entry.sentence()))
 }
 
 fn write_scene(output: &mut impl Write, scene: Scene, args: &ScenesArgs) -> io::Result<()> {

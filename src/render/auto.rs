@@ -9,10 +9,12 @@ use super::texture::Texture;
 pub struct Choice {
     /// The effects.
     pub effects: Effects,
+    /// Why, effect by effect.
+    pub reasons: Vec<String>,
 }
 
 /// Chooses.
 #[must_use]
 pub fn choose(_scene: &Scene, _textures: &[Texture]) -> Choice {
-    Choice { effects: Effects { name: Some("auto".to_owned()), ..Effects::default() } }
+    Choice { effects: Effects { name: Some("auto".to_owned()), ..Effects::default() }, reasons: Vec::new() }
 }

@@ -52,5 +52,8 @@ pub fn check(expectation: &Expectation, takes: &[Take]) -> Checked {
         (None, None) => "any number".to_owned(),
     };
     let holds = at_least.is_none_or(|low| value >= low) && at_most.is_none_or(|high| value <= high);
-    Checked { text: format!("{take}: {metric} is {value:.4}{of}; {bounds} expected"), holds: holds && value.is_finite() }
+    Checked {
+        text: format!("{take}: {metric} is {value:.4}{of}; {bounds} expected"),
+        holds: holds && value.is_finite(),
+    }
 }

@@ -318,7 +318,12 @@ fn check(scene: &SceneFile) -> Result<(), Wrong> {
     if !(scene.camera.half_height.is_finite() && scene.camera.half_height > 0.0) {
         return wrong("`camera.half_height` must be above 0".to_owned());
     }
-    if scene.camera.motion.and_then(|motion| motion.zoom).is_some_and(|zoom| !(zoom.is_finite() && zoom > 0.0)) {
+    if scene
+        .camera
+        .motion
+        .and_then(|motion| motion.zoom)
+        .is_some_and(|zoom| !(zoom.is_finite() && zoom > 0.0))
+    {
         return wrong("`camera.motion.zoom` must be above 0".to_owned());
     }
     for texture in &scene.texture {
@@ -338,7 +343,10 @@ fn check(scene: &SceneFile) -> Result<(), Wrong> {
             Some(name) if !names.contains(&name.as_ref().as_str()) => {
                 let likely = nearest(name.as_ref(), &names)
                     .map_or_else(String::new, |near| format!(" Did you mean `{near}`?"));
-                return Err((Some(name.span()), format!("no texture is called `{}`.{likely}", name.as_ref())));
+                return Err((
+                    Some(name.span()),
+                    format!("no texture is called `{}`.{likely}", name.as_ref()),
+                ));
             }
             None if surface.mesh.is_none() => return wrong(format!("{what} has no `texture`")),
             _ => {}
@@ -412,7 +420,10 @@ variant = \"anisotropic\"
         let scene = read(SOUND, "s.toml").unwrap();
         let Takes::Sets(sets) = &scene.effects else { panic!() };
         assert!(sets[0].hashed.is_some() && sets[0].fixed.is_none());
-        assert_eq!(read(&SOUND.replace("[effects.hashed]\nvariant = \"anisotropic\"", ""), "").unwrap().effects, Takes::default());
+        assert_eq!(
+            read(&SOUND.replace("[effects.hashed]\nvariant = \"anisotropic\"", ""), "").unwrap().effects,
+            Takes::default()
+        );
         let auto = SOUND.replace("[effects.hashed]\nvariant = \"anisotropic\"", "");
         assert_eq!(read(&format!("effects = \"auto\"\n{auto}"), "").unwrap().effects, Takes::Auto);
     }
@@ -421,9 +432,17 @@ variant = \"anisotropic\"
     fn mistakes_are_named_with_their_place_and_the_likely_word() {
         for (from, to, expected) in [
             ("variant", "varient", "s.toml:12:1: unknown key `varient`. Did you mean `variant`?"),
-            ("[effects.hashed]", "[effects.hasht]", "s.toml:11:10: unknown key `hasht`. Did you mean `hashed`?"),
+            (
+                "[effects.hashed]",
+                "[effects.hasht]",
+                "s.toml:11:10: unknown key `hasht`. Did you mean `hashed`?",
+            ),
             ("anisotropic", "anistropic", "s.toml:12:11: unknown"),
-            ("texture = \"leaf\"", "texture = \"leav\"", "s.toml:9:11: no texture is called `leav`. Did you mean `leaf`?"),
+            (
+                "texture = \"leaf\"",
+                "texture = \"leav\"",
+                "s.toml:9:11: no texture is called `leav`. Did you mean `leaf`?",
+            ),
             ("leaves = {}", "", "s.toml:6:8: texture `leaf` says not what it is"),
             ("leaves = {}", "leaves = {}\nconstant = { alpha = 0.5 }", "is leaves and constant at once"),
             ("0.0, 0.0, 5.0", "0.0, 0.0", "s.toml:3:7: "),

@@ -1,5 +1,7 @@
 //! The figures of the sources as scenes, each with the sentence that it must show.
 
+use super::file;
+
 /// A built-in scene file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Entry {
@@ -24,4 +26,12 @@ gallery!["grazing-fence"];
 #[must_use]
 pub fn find(name: &str) -> Option<&'static Entry> {
     GALLERY.iter().find(|entry| entry.name == name)
+}
+
+impl Entry {
+    /// Returns the sentence that the scene must show; empty where it has none.
+    #[must_use]
+    pub fn sentence(&self) -> String {
+        file::read(self.text, self.name).ok().and_then(|scene| scene.sentence).unwrap_or_default()
+    }
 }

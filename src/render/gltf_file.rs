@@ -59,7 +59,8 @@ pub fn read(path: &Path, scale: f64, textured: bool) -> Result<Found, MeshError>
     let gltf::Gltf { document, blob } = gltf::Gltf::open(path).map_err(fail)?;
     let folder = path.parent();
     let buffers = gltf::import_buffers(&document, folder, blob).map_err(fail)?;
-    let images = if textured { gltf::import_images(&document, folder, &buffers).map_err(fail)? } else { Vec::new() };
+    let images =
+        if textured { gltf::import_images(&document, folder, &buffers).map_err(fail)? } else { Vec::new() };
     let mut found = Found { vertices: Vec::new(), triangles: Vec::new(), textures: Vec::new() };
     let mut of_image = std::collections::BTreeMap::new();
     let scene = document.default_scene().or_else(|| document.scenes().next());
@@ -122,13 +123,7 @@ pub fn read(path: &Path, scale: f64, textured: bool) -> Result<Found, MeshError>
 }
 
 /// Adds what was found to a scene; `named` is the texture that covers all of it in place of its own.
-pub fn append(
-    found: Found,
-    object: u32,
-    named: Option<usize>,
-    mesh: &mut Mesh,
-    covers: &mut Vec<Cover>,
-) {
+pub fn append(found: Found, object: u32, named: Option<usize>, mesh: &mut Mesh, covers: &mut Vec<Cover>) {
     let (first, first_texture) = (mesh.vertices.len() as u32, covers.len());
     mesh.vertices.extend(found.vertices);
     for (corners, texture) in found.triangles {
@@ -153,11 +148,14 @@ fn level(image: Option<&gltf::image::Data>, path: &Path) -> Result<Level, MeshEr
         Format::R8G8B8 => ImageBuffer::from_raw(width, height, bytes).map(DynamicImage::ImageRgb8),
         Format::R8G8B8A8 => ImageBuffer::from_raw(width, height, bytes).map(DynamicImage::ImageRgba8),
         wide => {
-            let words: Vec<u16> = bytes.chunks_exact(2).map(|pair| u16::from_le_bytes([pair[0], pair[1]])).collect();
+            let words: Vec<u16> =
+                bytes.chunks_exact(2).map(|pair| u16::from_le_bytes([pair[0], pair[1]])).collect();
             match wide {
                 Format::R16 => ImageBuffer::from_raw(width, height, words).map(DynamicImage::ImageLuma16),
                 Format::R16G16 => ImageBuffer::from_raw(width, height, words).map(DynamicImage::ImageLumaA16),
-                Format::R16G16B16 => ImageBuffer::from_raw(width, height, words).map(DynamicImage::ImageRgb16),
+                Format::R16G16B16 => {
+                    ImageBuffer::from_raw(width, height, words).map(DynamicImage::ImageRgb16)
+                }
                 Format::R16G16B16A16 => {
                     ImageBuffer::from_raw(width, height, words).map(DynamicImage::ImageRgba16)
                 }

@@ -32,7 +32,9 @@ pub enum ImageError {
         source: image::ImageError,
     },
     /// It has no pixels or too many.
-    #[error("{path} is {width} x {height} pixels; from 1 to 65535 along each side and 67 million in all are allowed")]
+    #[error(
+        "{path} is {width} x {height} pixels; from 1 to 65535 along each side and 67 million in all are allowed"
+    )]
     Size {
         /// The file.
         path: PathBuf,
@@ -85,7 +87,9 @@ pub fn level(image: &DynamicImage, channel: Channel, path: &Path) -> Result<Leve
     }
     let share = |word: u16| f32::from(word) / 65_535.0;
     let (alpha, colour) = match channel {
-        Channel::Alpha => image.to_rgba16().pixels().map(|p| (share(p.0[3]), [p.0[0], p.0[1], p.0[2]])).unzip(),
+        Channel::Alpha => {
+            image.to_rgba16().pixels().map(|p| (share(p.0[3]), [p.0[0], p.0[1], p.0[2]])).unzip()
+        }
         // What is opaque is drawn in the dark colour of foliage: the luminance is no colour.
         Channel::Luminance => (image.to_luma16().pixels().map(|p| share(p.0[0])).collect(), Vec::new()),
     };

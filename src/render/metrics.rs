@@ -117,7 +117,11 @@ impl Measured {
     pub fn end(&mut self, shot: &Shot, metrics: &mut Metrics) {
         let sums = core::mem::take(&mut self.sums);
         let frames = sums.frames.max(1.0);
-        let suffix = if shot.distance == 1.0 && self.shots == 1 { String::new() } else { format!("@{}", shot.distance) };
+        let suffix = if shot.distance == 1.0 && self.shots == 1 {
+            String::new()
+        } else {
+            format!("@{}", shot.distance)
+        };
         let mut put = |name: &str, value: f64| {
             metrics.insert(format!("{name}{suffix}"), value);
         };

@@ -94,9 +94,10 @@ impl Picture {
 /// Returns the difference of two pictures of one size, inverted as in Fig. 13: white where they agree.
 #[must_use]
 pub fn difference(a: &Picture, b: &Picture) -> RgbImage {
-    let inverted = a.colour.iter().zip(&b.colour).flat_map(|(a, b)| {
-        [0, 1, 2].map(|c| (255.0 * (1.0 - (a[c] - b[c]).abs().min(1.0))).round() as u8)
-    });
+    let inverted =
+        a.colour.iter().zip(&b.colour).flat_map(|(a, b)| {
+            [0, 1, 2].map(|c| (255.0 * (1.0 - (a[c] - b[c]).abs().min(1.0))).round() as u8)
+        });
     RgbImage::from_raw(a.size[0], a.size[1], inverted.collect()).unwrap_or_default()
 }
 
@@ -115,7 +116,8 @@ pub fn enlarge(image: &RgbImage, inset: &Inset) -> RgbImage {
 /// Puts rows of images on white, each row from left to right.
 #[must_use]
 pub fn sheet(rows: &[Vec<RgbImage>]) -> RgbImage {
-    let width_of = |row: &Vec<RgbImage>| row.iter().map(|image| image.width() + GAP).sum::<u32>().saturating_sub(GAP);
+    let width_of =
+        |row: &Vec<RgbImage>| row.iter().map(|image| image.width() + GAP).sum::<u32>().saturating_sub(GAP);
     let height_of = |row: &Vec<RgbImage>| row.iter().map(RgbImage::height).max().unwrap_or(0);
     let width = rows.iter().map(width_of).max().unwrap_or(0);
     let height = rows.iter().map(|row| height_of(row) + GAP).sum::<u32>().saturating_sub(GAP);
@@ -190,8 +192,7 @@ mod tests {
     #[test]
     fn sheets_and_files_have_their_size() {
         let image = grey([3, 2], 0.5).to_rgb();
-        let inset =
-            Inset { corner: [2, 1], size: [2, 2], times: core::num::NonZeroU32::new(3).unwrap() };
+        let inset = Inset { corner: [2, 1], size: [2, 2], times: core::num::NonZeroU32::new(3).unwrap() };
         let large = enlarge(&image, &inset);
         assert_eq!((large.dimensions(), large.get_pixel(5, 5).0), ((6, 6), [255; 3]));
         let sheet = sheet(&[vec![image.clone(), image.clone()], vec![large]]);

@@ -80,27 +80,40 @@ impl Stage {
     pub fn describe(&self) -> String {
         match self {
             Self::Rasterise(1) => "rasterise: fragments of every surface, once a pixel".to_owned(),
-            Self::Rasterise(side) => format!("rasterise: fragments of every surface, {side} x {side} a pixel"),
+            Self::Rasterise(side) => {
+                format!("rasterise: fragments of every surface, {side} x {side} a pixel")
+            }
             Self::SampleAlpha(None) => "sample alpha: at the level of the footprint".to_owned(),
             Self::SampleAlpha(Some(level)) => format!("sample alpha: no coarser than level {level}"),
             Self::Fixed(threshold) => format!("threshold: {threshold} for all"),
             Self::Stochastic => "threshold: drawn anew in every fragment and frame".to_owned(),
             Self::Hash(Model::Hashed(h), space) => format!(
                 "hash: {} listing, {} hash, {} pixels, {} coordinates",
-                h.variant, h.hash, h.hash_scale, space.name()
+                h.variant,
+                h.hash,
+                h.hash_scale,
+                space.name()
             ),
             Self::Hash(Model::Robust(r), space) => format!(
                 "hash: robust {}, {} hash, {} join, {} pixels, {} coordinates",
-                r.variant, r.hash, r.join, r.hash_scale, space.name()
+                r.variant,
+                r.hash,
+                r.join,
+                r.hash_scale,
+                space.name()
             ),
             Self::Stratify(frames, order) => format!("temporal: stratum of {frames} frames, {order:?} order"),
-            Self::Coverage(samples, pattern) => format!("coverage: {samples} samples a pixel, {pattern:?} strata"),
+            Self::Coverage(samples, pattern) => {
+                format!("coverage: {samples} samples a pixel, {pattern:?} strata")
+            }
             Self::FadeIn(lod, false) => format!("fade in: full noise from level {lod}"),
             Self::FadeIn(lod, true) => format!("fade in: full noise from level {lod}, scaled by anisotropy"),
             Self::Clamp => "clamp: into [2^-24, 1], last".to_owned(),
             Self::Test => "test: keep where alpha >= threshold".to_owned(),
             Self::Resolve { divide: false } => "resolve: the nearest that is kept".to_owned(),
-            Self::Resolve { divide: true } => "resolve: the nearest that is kept, colour divided by alpha".to_owned(),
+            Self::Resolve { divide: true } => {
+                "resolve: the nearest that is kept, colour divided by alpha".to_owned()
+            }
             Self::Downsample(side) => format!("downsample: mean of {side} x {side}"),
             Self::Average(frames) => format!("average: mean of the last {frames} frames"),
         }
@@ -221,7 +234,8 @@ fn source(effects: &Effects, space: Space) -> Option<Stage> {
 
 /// A name made of the tables that are present.
 fn name(effects: &Effects) -> String {
-    let present: Vec<&str> = ALL.iter().filter(|known| (known.is_in)(effects)).map(|known| known.name).collect();
+    let present: Vec<&str> =
+        ALL.iter().filter(|known| (known.is_in)(effects)).map(|known| known.name).collect();
     if present.is_empty() { "alpha test".to_owned() } else { present.join(" + ") }
 }
 
@@ -311,7 +325,8 @@ impl Plan {
                 screen.fragments(tile, fragments);
                 let texels: u64 = (0..fragments.len())
                     .map(|at| {
-                        let texture = &textures[scene.mesh.triangles[fragments.triangle[at] as usize].texture as usize];
+                        let texture =
+                            &textures[scene.mesh.triangles[fragments.triangle[at] as usize].texture as usize];
                         texture.texels(&self.access(texture, fragments, at))
                     })
                     .sum();
@@ -339,7 +354,10 @@ impl Plan {
 
     /// Returns the effects that do not run, each with the reason.
     #[must_use]
-    pub fn skipped<'a>(&self, effects: &'a Effects) -> impl Iterator<Item = (&'static Known, &'static str)> + 'a {
+    pub fn skipped<'a>(
+        &self,
+        effects: &'a Effects,
+    ) -> impl Iterator<Item = (&'static Known, &'static str)> + 'a {
         ALL.iter().filter(|known| !(known.is_in)(effects)).map(|known| (known, "the scene has no such table"))
     }
 
@@ -350,11 +368,10 @@ impl Plan {
     ///
     /// [`InvalidOption`] for numbers that cannot be written as text.
     pub fn shader(&self) -> Result<Option<String>, InvalidOption> {
-        let mut options = ShaderOptions {
-            source: assemble::Source::Fixed,
-            ..ShaderOptions::listing(Variant::Isotropic)
-        };
-        let short = |n: &NonZeroU32| core::num::NonZeroU16::try_from(*n).unwrap_or(core::num::NonZeroU16::MAX);
+        let mut options =
+            ShaderOptions { source: assemble::Source::Fixed, ..ShaderOptions::listing(Variant::Isotropic) };
+        let short =
+            |n: &NonZeroU32| core::num::NonZeroU16::try_from(*n).unwrap_or(core::num::NonZeroU16::MAX);
         for stage in &self.stages {
             match stage {
                 Stage::Fixed(threshold) if f64::from(*threshold) != FIXED_THRESHOLD => return Ok(None),

@@ -52,9 +52,10 @@ pub fn prepare(file: SceneFile, folder: &Path) -> Result<Scene, AssetError> {
     }
     let mut mesh = Mesh::default();
     for (index, surface) in file.surface.iter().enumerate() {
-        let named = surface.texture.as_ref().and_then(|name| {
-            file.texture.iter().position(|texture| texture.name.as_ref() == name.as_ref())
-        });
+        let named = surface
+            .texture
+            .as_ref()
+            .and_then(|name| file.texture.iter().position(|texture| texture.name.as_ref() == name.as_ref()));
         mesh.objects.push(surface.object());
         if let Some(from) = &surface.mesh {
             let found = gltf_file::read(&folder.join(&from.file), from.scale, named.is_none())?;
@@ -69,7 +70,8 @@ impl Scene {
     /// Builds the mip chains; colours are multiplied by alpha where `premultiplied`.
     #[must_use]
     pub fn textures(&self, premultiplied: bool) -> Vec<Texture> {
-        let build = |cover: &Cover| Texture::new(cover.finest.clone(), cover.wrap, cover.filter, premultiplied);
+        let build =
+            |cover: &Cover| Texture::new(cover.finest.clone(), cover.wrap, cover.filter, premultiplied);
         self.covers.iter().map(build).collect()
     }
 }

@@ -72,12 +72,7 @@ const SAMPLES: u32 = 4;
 
 /// Draws a level: `inside` tells which colour is seen at a point of the unit square, if any; where none is, the texel has
 /// the colour `ground`, as an artist would have painted it.
-fn draw(
-    size: u32,
-    opaque: f64,
-    ground: [f64; 3],
-    inside: impl Fn(DVec2) -> Option<[f64; 3]>,
-) -> Level {
+fn draw(size: u32, opaque: f64, ground: [f64; 3], inside: impl Fn(DVec2) -> Option<[f64; 3]>) -> Level {
     let mut level = Level { size: [size, size], alpha: Vec::new(), colour: Vec::new() };
     for y in 0..size {
         for x in 0..size {
@@ -85,7 +80,8 @@ fn draw(
             for j in 0..SAMPLES {
                 for i in 0..SAMPLES {
                     let offset = dvec2(f64::from(i), f64::from(j)) + 0.5;
-                    let point = (dvec2(f64::from(x), f64::from(y)) + offset / f64::from(SAMPLES)) / f64::from(size);
+                    let point =
+                        (dvec2(f64::from(x), f64::from(y)) + offset / f64::from(SAMPLES)) / f64::from(size);
                     if let Some(seen) = inside(point) {
                         hits += 1.0;
                         colour = [0, 1, 2].map(|c| colour[c] + seen[c]);

@@ -295,7 +295,11 @@ fn project(corners: &[Corner; 3], camera: &Camera, triangle: u32) -> Option<Proj
         edges,
         inverse_depth: plane(&|_| 1.0),
         texcoord: [plane(&|corner| corner.texcoord.x), plane(&|corner| corner.texcoord.y)],
-        place: [plane(&|corner| corner.place.x), plane(&|corner| corner.place.y), plane(&|corner| corner.place.z)],
+        place: [
+            plane(&|corner| corner.place.x),
+            plane(&|corner| corner.place.y),
+            plane(&|corner| corner.place.z),
+        ],
         triangle,
     })
 }
@@ -359,7 +363,11 @@ mod tests {
             }
         }
         let seen = (0..70 * 50)
-            .filter(|i| rectangle.footprint(&camera, dvec2(f64::from(i % 70) + 0.5, f64::from(i / 70) + 0.5)).is_some())
+            .filter(|i| {
+                rectangle
+                    .footprint(&camera, dvec2(f64::from(i % 70) + 0.5, f64::from(i / 70) + 0.5))
+                    .is_some()
+            })
             .count();
         assert!((count as i64 - seen as i64).abs() <= 4, "{count} of {seen}");
     }
@@ -410,7 +418,9 @@ mod tests {
             screen.fragments(tile, &mut fragments);
             count += fragments.len();
             assert!(fragments.depth.iter().all(|&depth| depth > 0.0));
-            assert!(fragments.footprint.position[2].iter().zip(&fragments.depth).all(|(z, depth)| z == depth));
+            assert!(
+                fragments.footprint.position[2].iter().zip(&fragments.depth).all(|(z, depth)| z == depth)
+            );
         }
         assert!(count > 70 * 50 / 4, "{count}");
     }

@@ -73,8 +73,10 @@ pub fn frame(scene: &Scene, textures: &[Texture], plan: &Plan, shot: &Shot, inde
     let camera = shot.camera(scene, index, plan.places);
     let screen = Screen::new(&scene.mesh, &camera, f64::from(index), plan.space, plan.needs);
     let draw = Draw { scene, textures, plan, screen: &screen, frame: index };
-    let tiles: Vec<TileResult> =
-        (0..screen.tiles()).into_par_iter().map_init(Work::default, |work, tile| draw.tile(work, tile)).collect();
+    let tiles: Vec<TileResult> = (0..screen.tiles())
+        .into_par_iter()
+        .map_init(Work::default, |work, tile| draw.tile(work, tile))
+        .collect();
     let mut picture = Picture::sky(camera.resolution);
     let mut touched = vec![false; picture.coverage.len()];
     let mut cost = Cost { frames: 1, passes: 1, ..Cost::default() };

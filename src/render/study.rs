@@ -3,7 +3,7 @@
 use super::cost::Cost;
 use super::effects::Effects;
 use super::expect::{Checked, check};
-use super::file::Takes;
+use super::file::{Inset, Takes};
 use super::metrics::{Measured, Metrics};
 use super::picture::Picture;
 use super::plan::{Plan, Stage, plan};
@@ -60,7 +60,7 @@ pub struct Take {
     pub metrics: Metrics,
     /// The mean of the first shot's frames.
     pub mean: Picture,
-    /// The first frame of every shot, and the second of the first.
+    /// The first frame of every shot with all motion: the scene as it is, and from each other distance.
     pub first: Vec<Picture>,
     /// The frame after the first, where there is one.
     pub second: Option<Picture>,
@@ -83,12 +83,15 @@ pub struct Study {
     pub checked: Vec<Checked>,
 }
 
-/// Returns the effects of every take; the planner's choice where the scene leaves it to the planner.
+/// Returns the effects of every take; where the scene leaves them to the planner, its choice with the reasons.
 #[must_use]
-pub fn effects(scene: &Scene, textures: &[Texture]) -> Vec<Effects> {
+pub fn chosen(scene: &Scene, textures: &[Texture]) -> Vec<(Effects, Vec<String>)> {
     match &scene.file.effects {
-        Takes::Sets(sets) => sets.clone(),
-        Takes::Auto => vec![auto::choose(scene, textures).effects],
+        Takes::Sets(sets) => sets.iter().map(|effects| (effects.clone(), Vec::new())).collect(),
+        Takes::Auto => {
+            let choice = auto::choose(scene, textures);
+            vec![(choice.effects, choice.reasons)]
+        }
     }
 }
 
@@ -96,7 +99,7 @@ pub fn effects(scene: &Scene, textures: &[Texture]) -> Vec<Effects> {
 #[must_use]
 pub fn study(scene: &Scene, progress: &mut dyn FnMut(u64, u64)) -> Study {
     let straight = scene.textures(false);
-    let plans: Vec<Plan> = effects(scene, &straight).iter().map(plan).collect();
+    let plans: Vec<Plan> = chosen(scene, &straight).iter().map(|(effects, _)| plan(effects)).collect();
     let divides = |plan: &Plan| plan.stages.contains(&Stage::Resolve { divide: true });
     let multiplied = (scene.file.truth.is_some() || plans.iter().any(divides)).then(|| scene.textures(true));
     let shots = shots(scene);
@@ -106,7 +109,8 @@ pub fn study(scene: &Scene, progress: &mut dyn FnMut(u64, u64)) -> Study {
     let mut done = 0;
     let mut truths: Option<Vec<Picture>> = scene.file.truth.as_ref().map(|_| Vec::new());
     let mut truth_cost = Cost::default();
-    let mut takes: Vec<(Take, Measured)> = plans.into_iter().map(|plan| (Take::new(plan), Measured::default())).collect();
+    let mut takes: Vec<(Take, Measured)> =
+        plans.into_iter().map(|plan| (Take::new(plan), Measured::default())).collect();
     for shot in &shots {
         let mut histories = vec![VecDeque::new(); takes.len()];
         takes.iter_mut().for_each(|(_, measured)| measured.begin());
@@ -127,7 +131,7 @@ pub fn study(scene: &Scene, progress: &mut dyn FnMut(u64, u64)) -> Study {
                 done += 1;
                 progress(done, total);
             }
-            if let (Some(truths), Some(truth), 0) = (&mut truths, truth, index) {
+            if let (Some(truths), Some(truth), 0, Cause::All) = (&mut truths, truth, index, shot.cause) {
                 truths.push(truth);
             }
         }
@@ -138,6 +142,30 @@ pub fn study(scene: &Scene, progress: &mut dyn FnMut(u64, u64)) -> Study {
     let takes: Vec<Take> = takes.into_iter().map(|(take, measured)| take.finish(&measured)).collect();
     let checked = scene.file.expect.iter().map(|expectation| check(expectation, &takes)).collect();
     Study { takes, truth: truths, truth_cost, checked }
+}
+
+impl Study {
+    /// Returns the picture of the scene: the first frames of the takes side by side with the truth last, a row for each shot
+    /// that differs in distance; enlarged insets; and the differences of the first two frames, inverted.
+    #[must_use]
+    pub fn sheet(&self, inset: Option<&Inset>) -> RgbImage {
+        let truths = self.truth.as_deref().unwrap_or_default();
+        let shots = self.takes.iter().map(|take| take.first.len()).max().unwrap_or(0);
+        let images = |shot: usize| -> Vec<RgbImage> {
+            let takes = self.takes.iter().map(|take| &take.first);
+            takes.filter_map(|first| first.get(shot)).chain(truths.get(shot)).map(Picture::to_rgb).collect()
+        };
+        let mut rows: Vec<Vec<RgbImage>> = (0..shots).map(images).collect();
+        if let (Some(inset), Some(first)) = (inset, rows.first()) {
+            let large = first.iter().map(|image| picture::enlarge(image, inset)).collect();
+            rows.insert(1, large);
+        }
+        let differences: Vec<RgbImage> = self.takes.iter().filter_map(Take::difference).collect();
+        if !differences.is_empty() {
+            rows.push(differences);
+        }
+        picture::sheet(&rows)
+    }
 }
 
 impl Take {
@@ -179,12 +207,12 @@ impl Take {
         }
         self.seconds += begun.elapsed().as_secs_f64();
         self.cost += frame.cost;
-        let is_first_shot = shot.cause == Cause::All && self.first.len() <= 1 && measured.is_first_shot();
+        let is_first_shot = measured.is_first_shot();
         if is_first_shot {
             self.sequence.push(frame.picture.to_rgb());
         }
         match index {
-            0 => self.first.push(frame.picture.clone()),
+            0 if shot.cause == Cause::All => self.first.push(frame.picture.clone()),
             1 if is_first_shot => self.second = Some(frame.picture.clone()),
             _ => {}
         }

@@ -268,7 +268,8 @@ fn half(level: &Level) -> Option<Level> {
             };
             next.alpha.push(average(&|at| f64::from(level.alpha[at])) as f32);
             if !level.colour.is_empty() {
-                next.colour.push([0, 1, 2].map(|c| average(&|at| f64::from(level.colour[at][c])).round() as u16));
+                next.colour
+                    .push([0, 1, 2].map(|c| average(&|at| f64::from(level.colour[at][c])).round() as u16));
             }
         }
     }
@@ -311,7 +312,8 @@ mod tests {
 
     #[test]
     fn anisotropic_probes_read_finer_levels() {
-        let [plain, probing] = [Filter::Trilinear, Filter::Anisotropic].map(|filter| texture([256, 256], filter));
+        let [plain, probing] =
+            [Filter::Trilinear, Filter::Anisotropic].map(|filter| texture([256, 256], filter));
         let (dtdx, dtdy) = (vec2(0.1, 0.0), vec2(0.0, 0.01));
         let [coarse, fine] = [&plain, &probing].map(|texture| texture.access(Vec2::ZERO, dtdx, dtdy));
         assert!((coarse.lod - libm::log2f(25.6)).abs() < 1e-5);
@@ -320,7 +322,8 @@ mod tests {
 
     #[test]
     fn colours_of_transparent_texels_bleed_unless_premultiplied() {
-        let finest = Level { size: [2, 1], alpha: vec![1.0, 0.0], colour: vec![[0, 60_000, 0], [60_000, 0, 0]] };
+        let finest =
+            Level { size: [2, 1], alpha: vec![1.0, 0.0], colour: vec![[0, 60_000, 0], [60_000, 0, 0]] };
         let straight = Texture::new(finest.clone(), Wrap::Clamp, Filter::Trilinear, false);
         let multiplied = Texture::new(finest, Wrap::Clamp, Filter::Trilinear, true);
         assert_eq!(straight.levels[1].colour, [[30_000, 30_000, 0]]);

@@ -52,7 +52,8 @@ fn blend(
         let ((p, near), (q, far)) = (key(a), key(b));
         p.cmp(&q).then(near.total_cmp(&far)).then(a.cmp(&b))
     });
-    let mut cost = Cost { fragments: fragments.len() as u64, blends: fragments.len() as u64, ..Cost::default() };
+    let mut cost =
+        Cost { fragments: fragments.len() as u64, blends: fragments.len() as u64, ..Cost::default() };
     // Colour so far, and what is still seen of what is behind.
     let mut pixels = vec![([0.0_f32; 3], 1.0_f32); (TILE * TILE) as usize];
     for at in order {

@@ -120,7 +120,8 @@ mod tests {
     #[test]
     fn each_cause_moves_the_image_as_it_says() {
         let motion = Motion { translate: Some([0.5, -0.25]), zoom: Some(1.1), rotate: Some(2.0) };
-        let seen = |cause, point: DVec3| view(motion).camera(3.0, cause, 1.0, [200, 100]).project(point).unwrap();
+        let seen =
+            |cause, point: DVec3| view(motion).camera(3.0, cause, 1.0, [200, 100]).project(point).unwrap();
         let middle = dvec3_target();
         assert!((seen(Cause::Translate, middle) - dvec2(101.5, 49.25)).length() < 1e-9);
         assert!((seen(Cause::Zoom, middle) - dvec2(100.0, 50.0)).length() < 1e-9);

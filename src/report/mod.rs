@@ -7,6 +7,7 @@
 //! | [`text`] | `cli` | the table for a terminal, one line a claim |
 //! | [`by_model`] | `cli` | which claims hold on which device models |
 //! | [`html`] | `cli` | one page that needs nothing but the pictures beside it |
+//! | [`study`] | `cli` | plans, counts and numbers of scenes as text, CSV and JSON |
 //! | [`directory`] | `cli` | all of that as files |
 //!
 //! What lives here takes what others found out and shows it. What never will: statistics, verdicts, thresholds of its
@@ -23,6 +24,8 @@ pub mod figure;
 pub mod html;
 #[cfg(feature = "cli")]
 pub mod json;
+#[cfg(feature = "cli")]
+pub mod study;
 #[cfg(feature = "cli")]
 pub mod text;
 
