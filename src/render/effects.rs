@@ -1,6 +1,7 @@
 //! The effects that a scene can call for: one optional table each. Present means simulated, absent means that nothing of
 //! it exists.
 
+use crate::technique::order::Order;
 use crate::threshold::cdf::CdfForm;
 use crate::threshold::hash::HashKind;
 use crate::threshold::robust::Join;
@@ -64,6 +65,12 @@ effects! {
         "texels: as many, but far apart";
     limited_level: LimitedLevel, "§3", "Reads alpha from no level coarser than a given one",
         "texels: as many, but further apart";
+    level_threshold: LevelThreshold, "§3, Eq. 1", "Compares with a threshold for each level, so that all pass the share of the finest",
+        "nothing but the test; a pass over the texture beforehand";
+    scaled_alpha: ScaledAlpha, "§3 (Castano 2010)", "Scales the stored alphas of each level to that effect",
+        "nothing; a pass over the texture beforehand";
+    scaled_texels: ScaledTexels, "§3", "Scales each stored alpha by the share of the texels around it",
+        "nothing; passes over the texture beforehand";
     fixed: Fixed, "§1", "Compares alpha with one threshold", "nothing but the test";
     stochastic: Stochastic, "§4", "Draws a threshold anew in every fragment and frame", "random numbers: 1 a threshold";
     hashed: Hashed, "§5, §6, Listings 1 and 2", "Hashes a threshold from the place on the surface, to the letter",
@@ -71,10 +78,16 @@ effects! {
     robust: RobustHash, "not in the paper", "Hashes a threshold with every repair",
         "hashes: 2 to 8 a fragment, by join and variant";
     coordinates: Coordinates, "§5.2, §5.3", "Hashes in other than object coordinates", "nothing";
+    independent: Independent, "§7.2.2", "Hashes at another place in every frame", "nothing but an addition a hash";
+    jitter: Jitter, "§7.2", "Moves the camera within a pixel from frame to frame", "nothing";
     temporal: Temporal, "§7.2.3, Eq. 6", "Divides the range of thresholds among frames", "nothing but an addition";
     alpha_to_coverage: AlphaToCoverage, "§8, Eqs. 7 to 9", "Tests alpha at every sample of a pixel",
         "tests: samples a fragment; hashes: 1 more a fragment if decorrelated";
     fade_in: FadeIn, "§7.1, Eqs. 3 to 5", "Fades noise in with distance", "nothing but a mixture";
+    test_then_blend: TestThenBlend, "§3 (Moore & Jefferies 2009)", "Draws what fails the test once more, blended",
+        "passes, fragments, texels: twice; blends: 1 a fragment";
+    history: History, "§7.2 (Karis 2014)", "Averages frames exponentially, as temporal antialiasing does",
+        "blends: 1 a pixel and frame";
     average: Average, "§7.2", "Averages frames, as temporal antialiasing does", "samples: one blend a pixel and frame";
 }
 
@@ -102,6 +115,57 @@ pub struct FinestLevel {}
 pub struct LimitedLevel {
     /// The coarsest level that is read.
     pub level: f32,
+}
+
+/// A threshold a level.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LevelThreshold {}
+
+/// Alphas scaled by level.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ScaledAlpha {}
+
+/// Alphas scaled by texel.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ScaledTexels {
+    /// How far around a texel the share is taken, in texels of its level.
+    #[serde(default)]
+    pub radius: usize,
+}
+
+/// A hash of its own for each frame.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Independent {
+    /// Number of frames that belong together.
+    pub frames: NonZeroU32,
+}
+
+/// A camera that moves within a pixel.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Jitter {
+    /// Number of frames that belong together.
+    pub frames: NonZeroU32,
+}
+
+/// The alpha test, and then what it left out, blended.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TestThenBlend {}
+
+/// An exponential average of frames.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct History {
+    /// Weight of the newest frame, in (0, 1].
+    pub weight: f32,
+    /// Whether the average is brought into the range of the newest frame around each pixel.
+    #[serde(default)]
+    pub clamp: bool,
 }
 
 /// One threshold for all.
@@ -193,19 +257,8 @@ pub struct Temporal {
     /// Number of frames that belong together.
     pub frames: NonZeroU32,
     /// Their order.
-    #[serde(default)]
+    #[serde(default = "alternating", deserialize_with = "order")]
     pub order: Order,
-}
-
-/// The order of strata (§7.2.3).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Order {
-    /// 0, 1, 2, ...
-    Ascending,
-    /// The lower and the upper half take turns.
-    #[default]
-    Alternating,
 }
 
 /// Several tests in a pixel.
@@ -242,6 +295,9 @@ pub struct FadeIn {
     /// Whether the level is multiplied by the anisotropy of the texture access (§7.1.1).
     #[serde(default)]
     pub anisotropy: bool,
+    /// The threshold without noise, in (0, 1]: one half in Eq. 4, or what an artist set.
+    #[serde(default = "half")]
+    pub authored: f32,
 }
 
 /// The mean of frames.
@@ -250,6 +306,25 @@ pub struct FadeIn {
 pub struct Average {
     /// Number of frames that are averaged.
     pub frames: NonZeroU32,
+}
+
+fn alternating() -> Order {
+    Order::Alternating
+}
+
+fn order<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Order, D::Error> {
+    const NAMES: [&str; 7] = [
+        Order::ALL[0].name(),
+        Order::ALL[1].name(),
+        Order::ALL[2].name(),
+        Order::ALL[3].name(),
+        Order::ALL[4].name(),
+        Order::ALL[5].name(),
+        Order::ALL[6].name(),
+    ];
+    let name = String::deserialize(deserializer)?;
+    let found = Order::ALL.into_iter().find(|order| order.name() == name);
+    found.ok_or_else(|| D::Error::unknown_variant(&name, &NAMES))
 }
 
 fn half() -> f32 {
@@ -307,6 +382,7 @@ pub const MOST_SAMPLES: u32 = 64;
 pub fn check(effects: &Effects) -> Result<(), String> {
     let sources = [
         ("fixed", effects.fixed.is_some()),
+        ("level_threshold", effects.level_threshold.is_some()),
         ("stochastic", effects.stochastic.is_some()),
         ("hashed", effects.hashed.is_some()),
         ("robust", effects.robust.is_some()),
@@ -315,7 +391,7 @@ pub fn check(effects: &Effects) -> Result<(), String> {
     if sources.len() > 1 {
         return Err(format!("effects choose the threshold by {} at once; keep one", sources.join(" and ")));
     }
-    let noisy = !matches!(sources[..], [] | ["fixed"]);
+    let noisy = !matches!(sources[..], [] | ["fixed" | "level_threshold"]);
     let hashes = matches!(sources[..], ["hashed" | "robust"]);
     let unit = |what: &str, value: f64| {
         if (0.0..=1.0).contains(&value) { Ok(()) } else { Err(format!("`{what}` must be in [0, 1]")) }
@@ -337,6 +413,7 @@ pub fn check(effects: &Effects) -> Result<(), String> {
     }
     if let Some(fade_in) = &effects.fade_in {
         positive("fade_in.full_noise_lod", f64::from(fade_in.full_noise_lod))?;
+        unit("fade_in.authored", f64::from(fade_in.authored))?;
     }
     if let Some(limited) = &effects.limited_level
         && !(limited.level >= 0.0 && limited.level.is_finite())
@@ -348,6 +425,7 @@ pub fn check(effects: &Effects) -> Result<(), String> {
     }
     for (what, present, met, need) in [
         ("coordinates", effects.coordinates.is_some(), hashes, "`hashed` or `robust`"),
+        ("independent", effects.independent.is_some(), hashes, "`hashed` or `robust`"),
         ("temporal", effects.temporal.is_some(), noisy, "`hashed`, `robust` or `stochastic`"),
         ("fade_in", effects.fade_in.is_some(), noisy, "`hashed`, `robust` or `stochastic`"),
     ] {
@@ -371,6 +449,21 @@ pub fn check(effects: &Effects) -> Result<(), String> {
             }
             _ => {}
         }
+    }
+    if effects.test_then_blend.is_some()
+        && (noisy || effects.alpha_to_coverage.is_some() || effects.level_threshold.is_some())
+    {
+        return Err(
+            "`test_then_blend` works with one threshold: take the other away or use `fixed`".to_owned()
+        );
+    }
+    if let Some(history) = &effects.history
+        && !(history.weight > 0.0 && history.weight <= 1.0)
+    {
+        return Err("`history.weight` must be in (0, 1]".to_owned());
+    }
+    if effects.scaled_alpha.is_some() && effects.scaled_texels.is_some() {
+        return Err("`scaled_alpha` and `scaled_texels` both scale alphas; keep one".to_owned());
     }
     if let Some(supersampling) = &effects.supersampling
         && supersampling.samples.get() > 16

@@ -10,7 +10,8 @@
 //! | [`prepare`] | a file with all that it names |
 //! | [`mesh`], [`rasterise`], [`fragments`] | triangles to fragments |
 //! | [`plan`], [`cost`] | effects to stages, what they need, what they cost |
-//! | [`auto`] | effects chosen from what a scene measures |
+//! | [`survey`], [`auto`] | what is measured of a scene, and effects chosen from it |
+//! | [`adjust`], [`temporal`] | textures before the first frame, pictures after each |
 //! | [`run`], [`truth`] | a frame by a plan, and as it should be |
 //! | [`study`], [`metrics`], [`expect`] | all takes of a scene, what is measured, what must come out |
 //! | [`picture`] | images side by side, differences, sequences |
@@ -18,6 +19,7 @@
 //!
 //! What never lives here: a technique's mathematics, verdicts on thresholds, printing.
 
+pub mod adjust;
 pub mod auto;
 pub mod cost;
 pub mod effects;
@@ -37,6 +39,8 @@ pub mod rasterise;
 pub mod run;
 pub mod study;
 pub mod surface;
+pub mod survey;
+pub mod temporal;
 pub mod texture;
 pub mod truth;
 pub mod view;

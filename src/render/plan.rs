@@ -3,20 +3,24 @@
 //! A plan is the program that a run carries out: what is not in its stages does not happen, and what no stage needs is
 //! not computed.
 
+use super::adjust::Scaling;
 use super::cost::Cost;
-use super::effects::{ALL, Effects, Known, Order, Pattern, Space};
+use super::effects::{ALL, Effects, FadeIn, History, Known, Pattern, Space};
 use super::fragments::{Fragments, Needs};
 use super::prepare::Scene;
 use super::rasterise::Screen;
 use super::study::{Shot, shots};
 use super::texture::Texture;
 use crate::shader::assemble::{self, InvalidOption, ShaderOptions, assemble};
+use crate::technique::jitter::camera_jitter;
+use crate::technique::order::Order;
 use crate::threshold::batch::Model;
 use crate::threshold::fixed::FIXED_THRESHOLD;
 use crate::threshold::hashed::HashedAlpha;
 use crate::threshold::robust::{Join, Robust};
 use crate::threshold::two_scale::Variant;
 use core::num::NonZeroU32;
+use glam::DVec2;
 use rayon::prelude::*;
 
 /// One stage of a plan.
@@ -26,18 +30,24 @@ pub enum Stage {
     Rasterise(u32),
     /// Filtered alpha, from no level coarser than the given one if any.
     SampleAlpha(Option<f32>),
+    /// Alphas as they were scaled beforehand.
+    Scaled(Scaling),
     /// One threshold for all fragments.
     Fixed(f32),
+    /// The threshold of the level that is read.
+    LevelThreshold,
     /// A fresh threshold a fragment, or so many.
     Stochastic,
     /// A hashed threshold.
     Hash(Model, Space),
+    /// The same at another place in each of so many frames.
+    Independent(NonZeroU32),
     /// The stratum of the frame.
     Stratify(NonZeroU32, Order),
     /// The strata of the samples.
     Coverage(NonZeroU32, Pattern),
-    /// The mixture with the traditional threshold, by level of detail; and whether anisotropy scales it.
-    FadeIn(f32, bool),
+    /// The mixture with the threshold without noise, by level of detail.
+    FadeIn(FadeIn),
     /// The range (0, 1], after all that changes thresholds.
     Clamp,
     /// Alpha against threshold.
@@ -47,8 +57,12 @@ pub enum Stage {
         /// Whether colours are divided by alpha.
         divide: bool,
     },
+    /// What failed the test with a threshold, blended over what passed it.
+    Blend(f32),
     /// The mean of the places within a pixel.
     Downsample(u32),
+    /// The exponential average of all frames.
+    History(History),
     /// The mean of the last frames.
     Average(NonZeroU32),
 }
@@ -69,7 +83,13 @@ impl Stage {
             Self::Hash(Model::Robust(_), _) => Some("robust"),
             Self::Stratify(..) => Some("temporal"),
             Self::Coverage(..) => Some("alpha_to_coverage"),
-            Self::FadeIn(..) => Some("fade_in"),
+            Self::FadeIn(_) => Some("fade_in"),
+            Self::Scaled(Scaling::Levels) => Some("scaled_alpha"),
+            Self::Scaled(Scaling::Texels(_)) => Some("scaled_texels"),
+            Self::LevelThreshold => Some("level_threshold"),
+            Self::Independent(_) => Some("independent"),
+            Self::Blend(_) => Some("test_then_blend"),
+            Self::History(_) => Some("history"),
             Self::Resolve { divide: true } => Some("premultiplied"),
             Self::Average(_) => Some("average"),
         }
@@ -102,12 +122,28 @@ impl Stage {
                 r.hash_scale,
                 space.name()
             ),
-            Self::Stratify(frames, order) => format!("temporal: stratum of {frames} frames, {order:?} order"),
+            Self::Stratify(frames, order) => {
+                format!("temporal: stratum of {frames} frames, {} order", order.name())
+            }
             Self::Coverage(samples, pattern) => {
                 format!("coverage: {samples} samples a pixel, {pattern:?} strata")
             }
-            Self::FadeIn(lod, false) => format!("fade in: full noise from level {lod}"),
-            Self::FadeIn(lod, true) => format!("fade in: full noise from level {lod}, scaled by anisotropy"),
+            Self::FadeIn(fade_in) => {
+                let scaled = if fade_in.anisotropy { ", scaled by anisotropy" } else { "" };
+                let (level, authored) = (fade_in.full_noise_lod, fade_in.authored);
+                format!("fade in: from {authored} at level 0 to full noise at level {level}{scaled}")
+            }
+            Self::Scaled(Scaling::Levels) => "adjust alpha: scaled for each level, beforehand".to_owned(),
+            Self::Scaled(Scaling::Texels(radius)) => {
+                format!("adjust alpha: scaled for each texel by those within {radius}, beforehand")
+            }
+            Self::LevelThreshold => "threshold: that of the level, found beforehand".to_owned(),
+            Self::Independent(frames) => format!("hash: at another place in each of {frames} frames"),
+            Self::Blend(threshold) => format!("blend: what failed at {threshold}, over what passed"),
+            Self::History(history) => {
+                let clamped = if history.clamp { ", clamped to its neighbourhood" } else { "" };
+                format!("history: {} of the newest frame, the rest of those before{clamped}", history.weight)
+            }
             Self::Clamp => "clamp: into [2^-24, 1], last".to_owned(),
             Self::Test => "test: keep where alpha >= threshold".to_owned(),
             Self::Resolve { divide: false } => "resolve: the nearest that is kept".to_owned(),
@@ -152,6 +188,21 @@ pub struct Plan {
     pub places: u32,
     /// Tests a fragment.
     pub samples: u32,
+    /// What it needs of textures.
+    pub textures: TextureNeeds,
+    /// The number of frames in which the camera moves within a pixel.
+    pub jitter: Option<NonZeroU32>,
+}
+
+/// What a plan needs of textures.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct TextureNeeds {
+    /// Colours multiplied by alpha.
+    pub premultiplied: bool,
+    /// A threshold for each level.
+    pub thresholds: bool,
+    /// Scaled alphas.
+    pub scaling: Option<Scaling>,
 }
 
 /// Makes the plan of a set of effects; no table at all gives the plain alpha test.
@@ -163,9 +214,18 @@ pub fn plan(effects: &Effects) -> Plan {
         (None, limited) => limited.as_ref().map(|limited| limited.level),
     };
     let space = effects.coordinates.as_ref().map_or(Space::Object, |coordinates| coordinates.space);
+    let scaling = match (&effects.scaled_alpha, &effects.scaled_texels) {
+        (Some(_), _) => Some(Scaling::Levels),
+        (None, texels) => texels.as_ref().map(|texels| Scaling::Texels(texels.radius)),
+    };
     let mut stages = vec![Stage::Rasterise(places), Stage::SampleAlpha(coarsest)];
+    stages.extend(scaling.map(Stage::Scaled));
+    let again = stages.clone();
     let coverage = effects.alpha_to_coverage.as_ref();
     stages.extend(source(effects, space));
+    if let Some(independent) = &effects.independent {
+        stages.push(Stage::Independent(independent.frames));
+    }
     if let Some(temporal) = &effects.temporal {
         stages.push(Stage::Stratify(temporal.frames, temporal.order));
     }
@@ -173,14 +233,23 @@ pub fn plan(effects: &Effects) -> Plan {
         stages.push(Stage::Coverage(coverage.samples, coverage.pattern));
     }
     if let Some(fade_in) = &effects.fade_in {
-        stages.push(Stage::FadeIn(fade_in.full_noise_lod, fade_in.anisotropy));
+        stages.push(Stage::FadeIn(fade_in.clone()));
     }
-    if !stages.iter().any(|stage| matches!(stage, Stage::Fixed(_))) {
+    if !stages.iter().any(|stage| matches!(stage, Stage::Fixed(_) | Stage::LevelThreshold)) {
         stages.push(Stage::Clamp);
     }
     stages.extend([Stage::Test, Stage::Resolve { divide: effects.premultiplied.is_some() }]);
+    if effects.test_then_blend.is_some() {
+        stages.extend(again);
+        stages.push(Stage::Blend(
+            effects.fixed.as_ref().map_or(FIXED_THRESHOLD as f32, |fixed| fixed.threshold),
+        ));
+    }
     if places > 1 {
         stages.push(Stage::Downsample(places));
+    }
+    if let Some(history) = &effects.history {
+        stages.push(Stage::History(history.clone()));
     }
     if let Some(average) = &effects.average {
         stages.push(Stage::Average(average.frames));
@@ -193,8 +262,17 @@ pub fn plan(effects: &Effects) -> Plan {
             texture_derivatives: coarsest != Some(0.0) || effects.fade_in.is_some(),
             layer: decorrelated,
             lod: effects.fade_in.is_some(),
-            frame: effects.temporal.is_some() || effects.stochastic.is_some() || decorrelated,
+            frame: [effects.temporal.is_some(), effects.stochastic.is_some(), decorrelated]
+                .into_iter()
+                .chain([effects.independent.is_some(), effects.jitter.is_some()])
+                .any(|reads| reads),
         },
+        textures: TextureNeeds {
+            premultiplied: effects.premultiplied.is_some(),
+            thresholds: effects.level_threshold.is_some(),
+            scaling,
+        },
+        jitter: effects.jitter.as_ref().map(|jitter| jitter.frames),
         stages,
         space,
         places,
@@ -222,6 +300,9 @@ fn source(effects: &Effects, space: Space) -> Option<Stage> {
             ..preset
         };
         return Some(Stage::Hash(model.into(), space));
+    }
+    if effects.level_threshold.is_some() {
+        return Some(Stage::LevelThreshold);
     }
     if effects.stochastic.is_some() {
         return Some(Stage::Stochastic);
@@ -271,15 +352,19 @@ pub fn hashes(model: &Model) -> u64 {
     }
 }
 
-/// What a pass that rasterises a scene at some place of its motion costs; the counts that follow from fragments alone.
 impl Plan {
-    /// Returns what the stages cost for so many fragments, of which `texels` are read, in one frame of `pixels`.
+    /// Returns what the stages cost in one frame of `pixels` pixels with so many fragments, which read so many texels when
+    /// all are read once.
     #[must_use]
     pub fn cost_of_frame(&self, fragments: u64, texels: u64, pixels: u64) -> Cost {
-        let mut cost = Cost { frames: 1, passes: 1, fragments, ..Cost::default() };
+        let mut cost = Cost { frames: 1, ..Cost::default() };
         let mut thresholds = fragments;
         for stage in &self.stages {
             match stage {
+                Stage::Rasterise(_) => {
+                    cost.passes += 1;
+                    cost.fragments += fragments;
+                }
                 Stage::SampleAlpha(_) => cost.texels += texels,
                 Stage::Hash(model, _) => cost.hashes += fragments * hashes(model),
                 Stage::Stochastic => cost.randoms += fragments,
@@ -293,7 +378,8 @@ impl Plan {
                     }
                 }
                 Stage::Test => cost.tests += thresholds,
-                Stage::Average(_) => cost.blends += pixels,
+                Stage::Blend(_) => cost.blends += fragments,
+                Stage::History(_) | Stage::Average(_) => cost.blends += pixels,
                 _ => {}
             }
         }
@@ -318,7 +404,8 @@ impl Plan {
     fn census(&self, scene: &Scene, textures: &[Texture], shot: &Shot, frame: u32) -> (u64, u64) {
         let needs = Needs { texture_derivatives: self.needs.texture_derivatives, ..Needs::default() };
         let camera = shot.camera(scene, frame, self.places);
-        let screen = Screen::new(&scene.mesh, &camera, f64::from(frame), Space::Object, needs);
+        let screen =
+            Screen::new(&scene.mesh, &camera, f64::from(frame), self.offset(frame), Space::Object, needs);
         (0..screen.tiles())
             .into_par_iter()
             .map_init(Fragments::default, |fragments, tile| {
@@ -333,6 +420,13 @@ impl Plan {
                 (fragments.len() as u64, texels)
             })
             .reduce(|| (0, 0), |a, b| (a.0 + b.0, a.1 + b.1))
+    }
+
+    /// Returns how far the image is moved in a frame, in pixels of the places.
+    #[must_use]
+    pub fn offset(&self, frame: u32) -> DVec2 {
+        let jitter = self.jitter.map_or([0.0; 2], |frames| camera_jitter(frame, frames));
+        DVec2::from(jitter) * f64::from(self.places)
     }
 
     /// Where a fragment reads its texture.
@@ -386,6 +480,9 @@ impl Plan {
                     (options.variant, options.hash) = (robust.variant, robust.hash);
                     options.hash_scale = Some(robust.hash_scale as f32);
                 }
+                Stage::Stratify(_, order) if !matches!(order, Order::Ascending | Order::Alternating) => {
+                    return Ok(None);
+                }
                 Stage::Stratify(frames, order) => {
                     options.stratify = Some(assemble::Stratify {
                         frames: short(frames),
@@ -402,10 +499,12 @@ impl Plan {
                         decorrelated: *pattern == Pattern::Decorrelated,
                     });
                 }
-                Stage::FadeIn(full_noise_lod, anisotropy) => {
-                    options.fade_in =
-                        Some(assemble::FadeIn { full_noise_lod: *full_noise_lod, anisotropy: *anisotropy });
+                Stage::FadeIn(fade_in) if f64::from(fade_in.authored) != FIXED_THRESHOLD => return Ok(None),
+                Stage::FadeIn(fade_in) => {
+                    let FadeIn { full_noise_lod, anisotropy, .. } = *fade_in;
+                    options.fade_in = Some(assemble::FadeIn { full_noise_lod, anisotropy });
                 }
+                Stage::Independent(_) | Stage::LevelThreshold => return Ok(None),
                 _ => {}
             }
         }

@@ -54,9 +54,9 @@ pub struct Screen {
 }
 
 impl Screen {
-    /// Projects every triangle of a mesh in a frame.
+    /// Projects every triangle of a mesh in a frame; `offset` moves the image to the right and down, in pixels.
     #[must_use]
-    pub fn new(mesh: &Mesh, camera: &Camera, frame: f64, space: Space, needs: Needs) -> Self {
+    pub fn new(mesh: &Mesh, camera: &Camera, frame: f64, offset: DVec2, space: Space, needs: Needs) -> Self {
         let size = camera.resolution;
         let near = NEAR * camera.eye.length().max(1.0);
         let found: Vec<(Vec<Projected>, f32)> = (0..mesh.triangles.len())
@@ -66,7 +66,7 @@ impl Screen {
                 let polygon = cut_near(corners, near);
                 let fan = (2..polygon.len()).filter_map(|last| {
                     let corners = [polygon[0], polygon[last - 1], polygon[last]];
-                    project(&corners, camera, index as u32)
+                    project(&corners, camera, offset, index as u32)
                 });
                 (fan.collect(), shade)
             })
@@ -250,13 +250,13 @@ fn edge(from: DVec2, to: DVec2) -> Plane {
 }
 
 /// `None` for a triangle that covers no pixel.
-fn project(corners: &[Corner; 3], camera: &Camera, triangle: u32) -> Option<Projected> {
+fn project(corners: &[Corner; 3], camera: &Camera, offset: DVec2, triangle: u32) -> Option<Projected> {
     let pixels = 1.0 / camera.direction_dx.length();
     let rows = 1.0 / camera.direction_dy.length();
     let mut corners = *corners;
     let place = |corner: &Corner| {
         let eye = corner.eye;
-        dvec2(eye.x / eye.z * pixels, eye.y / eye.z * rows) + camera.size() / 2.0
+        dvec2(eye.x / eye.z * pixels, eye.y / eye.z * rows) + camera.size() / 2.0 + offset
     };
     let area = |[a, b, c]: [DVec2; 3]| edge(a, b).dot(c.extend(1.0));
     let mut exact = corners.each_ref().map(place);
@@ -339,7 +339,7 @@ mod tests {
     #[test]
     fn fragments_are_those_of_the_analytic_rectangle() {
         let (camera, rectangle, mesh) = tilted();
-        let screen = Screen::new(&mesh, &camera, 0.0, Space::Object, ALL);
+        let screen = Screen::new(&mesh, &camera, 0.0, DVec2::ZERO, Space::Object, ALL);
         let mut fragments = Fragments::default();
         let mut count = 0;
         for tile in 0..screen.tiles() {
@@ -389,7 +389,7 @@ mod tests {
         mesh.triangles = (0..24)
             .map(|i| Triangle { corners: [0, 1 + i, 1 + (i + 1) % 24], object: 0, texture: 0 })
             .collect();
-        let screen = Screen::new(&mesh, &camera, 0.0, Space::Object, Needs::default());
+        let screen = Screen::new(&mesh, &camera, 0.0, DVec2::ZERO, Space::Object, Needs::default());
         let mut fragments = Fragments::default();
         for tile in 0..screen.tiles() {
             screen.fragments(tile, &mut fragments);
@@ -411,7 +411,7 @@ mod tests {
         for vertex in &mut mesh.vertices {
             vertex.object = dvec3(vertex.texcoord.x * 20.0 - 10.0, 0.0, vertex.texcoord.y * 20.0 - 10.0);
         }
-        let screen = Screen::new(&mesh, &camera, 0.0, Space::Eye, ALL);
+        let screen = Screen::new(&mesh, &camera, 0.0, DVec2::ZERO, Space::Eye, ALL);
         let mut fragments = Fragments::default();
         let mut count = 0;
         for tile in 0..screen.tiles() {

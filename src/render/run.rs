@@ -1,7 +1,7 @@
 //! Carries a plan out: one frame, tile by tile, stage by stage over the columns of a tile, and counts what it does.
 
 use super::cost::Cost;
-use super::effects::{Order, Pattern};
+use super::effects::{FadeIn, Pattern};
 use super::fragments::Fragments;
 use super::picture::{LEAF, Picture, SKY};
 use super::plan::{Plan, Stage, hashes};
@@ -9,13 +9,19 @@ use super::prepare::Scene;
 use super::rasterise::{Screen, TILE};
 use super::study::Shot;
 use super::texture::{Access, Texture};
-use crate::threshold::batch::Batch;
+use crate::technique::blend_towards::blend_towards;
+use crate::technique::independent::by_offset;
+use crate::technique::order::Order;
+use crate::technique::premultiplied;
+use crate::technique::remedies::test_then_blend::{Layer, test_then_blend};
+use crate::threshold::batch::{Batch, Model};
 use crate::threshold::coverage::{decorrelated, jittered, regular};
-use crate::threshold::fade_in::{anisotropy, blend, clamp_last, fade_in};
+use crate::threshold::fade_in::{anisotropy, blend, clamp_last};
 use crate::threshold::fixed::passes;
 use crate::threshold::hash::{integer::pcg4d, open_lattice};
+use crate::threshold::hashed::HashedAlpha;
+use crate::threshold::robust::Robust;
 use crate::threshold::stochastic;
-use crate::threshold::stratify::{alternating, stratified};
 use core::num::NonZeroU32;
 use rand::SeedableRng;
 use rand::rngs::Xoshiro256PlusPlus;
@@ -71,7 +77,8 @@ struct Work {
 #[must_use]
 pub fn frame(scene: &Scene, textures: &[Texture], plan: &Plan, shot: &Shot, index: u32) -> Frame {
     let camera = shot.camera(scene, index, plan.places);
-    let screen = Screen::new(&scene.mesh, &camera, f64::from(index), plan.space, plan.needs);
+    let screen =
+        Screen::new(&scene.mesh, &camera, f64::from(index), plan.offset(index), plan.space, plan.needs);
     let draw = Draw { scene, textures, plan, screen: &screen, frame: index };
     let tiles: Vec<TileResult> = (0..screen.tiles())
         .into_par_iter()
@@ -79,7 +86,8 @@ pub fn frame(scene: &Scene, textures: &[Texture], plan: &Plan, shot: &Shot, inde
         .collect();
     let mut picture = Picture::sky(camera.resolution);
     let mut touched = vec![false; picture.coverage.len()];
-    let mut cost = Cost { frames: 1, passes: 1, ..Cost::default() };
+    let passes = plan.stages.iter().filter(|stage| matches!(stage, Stage::Rasterise(_))).count() as u64;
+    let mut cost = Cost { frames: 1, passes, ..Cost::default() };
     let mut layers = LayerSums::default();
     for (tile, result) in tiles.iter().enumerate() {
         cost += result.cost;
@@ -154,31 +162,34 @@ impl Draw<'_> {
                     work.threshold.extend(draws);
                     result.cost.randoms += work.fragments.len() as u64;
                 }
-                Stage::Hash(model, _) => {
+                Stage::LevelThreshold => {
                     work.threshold.clear();
-                    work.threshold.resize(work.fragments.len(), 0.0);
-                    Batch::new(*model).thresholds(&work.fragments.footprint.columns(), &mut work.threshold);
+                    let triangles = work.fragments.triangle.iter().zip(&work.access);
+                    work.threshold
+                        .extend(triangles.map(|(&t, access)| self.texture(t).level_threshold(access)));
+                }
+                Stage::Hash(model, _) => {
+                    self.hash(work, model);
                     result.cost.hashes += work.threshold.len() as u64 * hashes(model);
                 }
-                Stage::Stratify(frames, order) => {
-                    let stratum = match order {
-                        Order::Ascending => self.frame,
-                        Order::Alternating => alternating(self.frame, *frames),
-                    };
-                    work.threshold.iter_mut().for_each(|t| *t = stratified(*t, stratum, *frames));
-                }
+                Stage::Stratify(frames, order) => self.stratify(work, *frames, *order),
                 Stage::Coverage(samples, pattern) => {
                     self.cover(work, tile, *samples, *pattern, &mut rng, &mut result.cost);
                 }
-                Stage::FadeIn(full_noise, scaled) => self.fade(work, *full_noise, *scaled),
+                Stage::FadeIn(table) => self.fade(work, table),
                 Stage::Clamp => work.threshold.iter_mut().for_each(|t| *t = clamp_last(*t)),
                 Stage::Test => {
                     test(work, self.plan.samples as usize);
                     result.cost.tests += work.threshold.len() as u64;
                 }
                 Stage::Resolve { divide } => self.resolve(work, *divide, &mut result),
-                // Made of whole pictures.
-                Stage::Downsample(_) | Stage::Average(_) => {}
+                Stage::Blend(threshold) => {
+                    self.blend(work, *threshold, &mut result);
+                    result.cost.blends += work.fragments.len() as u64;
+                }
+                // The first is done beforehand, the second by the hash, the others on whole pictures.
+                Stage::Scaled(_) | Stage::Independent(_) => {}
+                Stage::Downsample(_) | Stage::History(_) | Stage::Average(_) => {}
             }
         }
         if self.scene.file.layers.is_some() {
@@ -196,6 +207,39 @@ impl Draw<'_> {
             work.alpha.push(texture.alpha(&access, &mut cost.texels));
             work.access.push(access);
         }
+    }
+
+    fn hash(&self, work: &mut Work, model: &Model) {
+        let columns = work.fragments.footprint.columns();
+        work.threshold.clear();
+        work.threshold.resize(work.fragments.len(), 0.0);
+        let frames = self.plan.stages.iter().find_map(|stage| match stage {
+            Stage::Independent(frames) => Some(*frames),
+            _ => None,
+        });
+        let Some(frames) = frames else {
+            Batch::new(*model).thresholds(&columns, &mut work.threshold);
+            return;
+        };
+        // Batches know the hashes of the catalogue only.
+        let frame = self.frame % frames;
+        for (at, threshold) in work.threshold.iter_mut().enumerate() {
+            let footprint = columns.footprint(at);
+            *threshold = match *model {
+                Model::Hashed(HashedAlpha { variant, hash, hash_scale, form }) => {
+                    HashedAlpha { variant, hash: by_offset(hash, frame), hash_scale, form }
+                        .threshold(&footprint)
+                }
+                Model::Robust(Robust { variant, hash, hash_scale, join, repairs }) => {
+                    let robust = Robust { variant, hash: by_offset(hash, frame), hash_scale, join, repairs };
+                    robust.threshold(&footprint).unwrap_or(f32::NAN)
+                }
+            };
+        }
+    }
+
+    fn stratify(&self, work: &mut Work, frames: NonZeroU32, order: Order) {
+        work.threshold.iter_mut().for_each(|chi| *chi = order.threshold(*chi, self.frame, frames));
     }
 
     fn cover(
@@ -237,19 +281,19 @@ impl Draw<'_> {
         [open_lattice(words[1]), open_lattice(words[2])]
     }
 
-    fn fade(&self, work: &mut Work, full_noise: f32, scaled: bool) {
+    fn fade(&self, work: &mut Work, table: &FadeIn) {
         let samples = work.threshold.len() / work.fragments.len();
         for at in 0..work.fragments.len() {
             let mut lod = work.access[at].lod;
-            if scaled {
+            if table.anisotropy {
                 let [width, height] = self.texture(work.fragments.triangle[at]).levels[0].size;
                 let texels = glam::vec2(width as f32, height as f32);
                 let along = [work.fragments.dtdx[at], work.fragments.dtdy[at]].map(|d| (d * texels).length());
                 lod *= anisotropy(along);
             }
-            let share = blend(lod, full_noise);
+            let share = blend(lod, table.full_noise_lod);
             for threshold in &mut work.threshold[at * samples..(at + 1) * samples] {
-                *threshold = fade_in(*threshold, share);
+                *threshold = blend_towards(table.authored, *threshold, share);
             }
         }
     }
@@ -286,13 +330,38 @@ impl Draw<'_> {
         }
     }
 
+    /// Draws what failed the test over what passed it, in the order in which it comes.
+    fn blend(&self, work: &Work, threshold: f32, result: &mut TileResult) {
+        let divide = self.plan.textures.premultiplied;
+        let mut of_pixel: Vec<Vec<usize>> = vec![Vec::new(); PIXELS];
+        for at in 0..work.fragments.len() {
+            of_pixel[usize::from(work.fragments.pixel[at])].push(at);
+        }
+        for (pixel, fragments) in of_pixel.iter().enumerate().filter(|(_, fragments)| !fragments.is_empty()) {
+            let layers = |value: &dyn Fn(usize) -> f32| -> Vec<Layer> {
+                let layer = |&at: &usize| Layer {
+                    depth: f64::from(work.fragments.depth[at]),
+                    alpha: f64::from(work.alpha[at]),
+                    value: f64::from(value(at)),
+                };
+                fragments.iter().map(layer).collect()
+            };
+            let drawn = |value: &dyn Fn(usize) -> f32, behind: f32| {
+                test_then_blend(&layers(value), f64::from(behind), f64::from(threshold)) as f32
+            };
+            result.colour[pixel] = [0, 1, 2].map(|c| drawn(&|at| self.colour(work, at, divide)[c], SKY[c]));
+            result.coverage[pixel] = drawn(&|_| 1.0, 0.0);
+        }
+    }
+
     fn colour(&self, work: &Work, at: usize, divide: bool) -> [f32; 3] {
         let triangle = work.fragments.triangle[at];
         let texture = self.texture(triangle);
         let shade = self.screen.shade(triangle);
         let colour = match texture.colour(&work.access[at]) {
-            // A fragment that is kept has an alpha above 0.
-            Some(colour) if divide => colour.map(|c| c / work.alpha[at].max(f32::MIN_POSITIVE)),
+            Some([r, g, b]) if divide => {
+                premultiplied::divide([r, g, b, work.alpha[at]].map(f64::from)).map(|c| c as f32)
+            }
             Some(colour) => colour,
             None => LEAF,
         };

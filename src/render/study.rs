@@ -1,18 +1,19 @@
 //! All takes of a scene, frame by frame, with what is measured of them.
 
+use super::adjust::textures;
 use super::cost::Cost;
 use super::effects::Effects;
 use super::expect::{Checked, check};
 use super::file::{Inset, Takes};
 use super::metrics::{Measured, Metrics};
 use super::picture::Picture;
-use super::plan::{Plan, Stage, plan};
+use super::plan::{Plan, Stage, TextureNeeds, plan};
 use super::prepare::Scene;
 use super::run;
 use super::texture::Texture;
 use super::truth;
 use super::view::Cause;
-use super::{auto, picture};
+use super::{auto, picture, temporal};
 use crate::scene::Camera;
 use image::RgbImage;
 use std::collections::VecDeque;
@@ -98,10 +99,21 @@ pub fn chosen(scene: &Scene, textures: &[Texture]) -> Vec<(Effects, Vec<String>)
 /// Draws everything. `progress` is told after every picture how many are done and how many there are.
 #[must_use]
 pub fn study(scene: &Scene, progress: &mut dyn FnMut(u64, u64)) -> Study {
-    let straight = scene.textures(false);
-    let plans: Vec<Plan> = chosen(scene, &straight).iter().map(|(effects, _)| plan(effects)).collect();
-    let divides = |plan: &Plan| plan.stages.contains(&Stage::Resolve { divide: true });
-    let multiplied = (scene.file.truth.is_some() || plans.iter().any(divides)).then(|| scene.textures(true));
+    let plans: Vec<Plan> = match &scene.file.effects {
+        Takes::Sets(sets) => sets.iter().map(plan).collect(),
+        Takes::Auto => vec![plan(&auto::choose(scene, &scene.textures(false)).effects)],
+    };
+    // One set of textures for all plans that need the same of them.
+    let of_truth = TextureNeeds { premultiplied: true, ..TextureNeeds::default() };
+    let mut covers: Vec<(TextureNeeds, Vec<Texture>)> = Vec::new();
+    for needs in plans.iter().map(|plan| plan.textures).chain(scene.file.truth.as_ref().map(|_| of_truth)) {
+        if !covers.iter().any(|(known, _)| *known == needs) {
+            covers.push((needs, textures(scene, needs)));
+        }
+    }
+    let find = |needs: TextureNeeds| -> &[Texture] {
+        covers.iter().find(|(known, _)| *known == needs).map_or(&[], |(_, textures)| textures)
+    };
     let shots = shots(scene);
     let frames = scene.file.frames.get();
     let per_frame = plans.len() as u64 + u64::from(scene.file.truth.is_some());
@@ -112,22 +124,18 @@ pub fn study(scene: &Scene, progress: &mut dyn FnMut(u64, u64)) -> Study {
     let mut takes: Vec<(Take, Measured)> =
         plans.into_iter().map(|plan| (Take::new(plan), Measured::default())).collect();
     for shot in &shots {
-        let mut histories = vec![VecDeque::new(); takes.len()];
+        let mut histories = vec![(None, VecDeque::new()); takes.len()];
         takes.iter_mut().for_each(|(_, measured)| measured.begin());
         for index in 0..frames {
-            let truth = match (&scene.file.truth, &multiplied) {
-                (Some(truth), Some(textures)) => {
-                    let (picture, cost) = truth::frame(scene, textures, shot, index, truth.samples.get());
-                    truth_cost += cost;
-                    done += 1;
-                    progress(done, total);
-                    Some(picture)
-                }
-                _ => None,
-            };
+            let truth = scene.file.truth.as_ref().map(|truth| {
+                let (picture, cost) = truth::frame(scene, find(of_truth), shot, index, truth.samples.get());
+                truth_cost += cost;
+                done += 1;
+                progress(done, total);
+                picture
+            });
             for ((take, measured), history) in takes.iter_mut().zip(&mut histories) {
-                let textures = multiplied.as_deref().filter(|_| divides(&take.plan)).unwrap_or(&straight);
-                take.draw(scene, textures, shot, index, history, measured, truth.as_ref());
+                take.draw(scene, find(take.plan.textures), shot, index, history, measured, truth.as_ref());
                 done += 1;
                 progress(done, total);
             }
@@ -189,20 +197,31 @@ impl Take {
         textures: &[Texture],
         shot: &Shot,
         index: u32,
-        history: &mut VecDeque<Picture>,
+        (average, last): &mut (Option<Picture>, VecDeque<Picture>),
         measured: &mut Measured,
         truth: Option<&Picture>,
     ) {
         let begun = Instant::now();
         let mut frame = run::frame(scene, textures, &self.plan, shot, index);
         for stage in &self.plan.stages {
-            if let Stage::Average(frames) = stage {
-                history.push_back(frame.picture);
-                if history.len() > frames.get() as usize {
-                    history.pop_front();
+            let pixels = frame.picture.coverage.len() as u64;
+            match stage {
+                Stage::History(table) => {
+                    if let Some(before) = average {
+                        frame.picture = temporal::accumulate(before, &frame.picture, table);
+                    }
+                    *average = Some(frame.picture.clone());
+                    frame.cost.blends += pixels;
                 }
-                frame.picture = Picture::mean(history.iter());
-                frame.cost.blends += frame.picture.coverage.len() as u64;
+                Stage::Average(frames) => {
+                    last.push_back(frame.picture);
+                    if last.len() > frames.get() as usize {
+                        last.pop_front();
+                    }
+                    frame.picture = Picture::mean(last.iter());
+                    frame.cost.blends += pixels;
+                }
+                _ => {}
             }
         }
         self.seconds += begun.elapsed().as_secs_f64();

@@ -52,6 +52,8 @@ pub struct Texture {
     pub wrap: Wrap,
     /// How texels become one value.
     pub filter: Filter,
+    /// A threshold for each level (Eq. 1); empty unless asked for.
+    pub thresholds: Vec<f32>,
 }
 
 /// Where and how coarsely a texture is read.
@@ -78,7 +80,7 @@ impl Texture {
         while let Some(next) = levels.last().and_then(half) {
             levels.push(next);
         }
-        Self { levels, wrap, filter }
+        Self { levels, wrap, filter, thresholds: Vec::new() }
     }
 
     /// Returns where to read for a texture coordinate with its two screen derivatives (texture coordinates per pixel).
@@ -132,6 +134,17 @@ impl Texture {
             return None;
         }
         Some(self.probe(access, |level, at| level.colour[at].map(|share| f32::from(share) / 65535.0)))
+    }
+
+    /// Returns the threshold of an access: that of its level, mixed between two as alpha is; infinite where nothing may
+    /// pass.
+    ///
+    /// Without thresholds it is one half.
+    #[must_use]
+    pub fn level_threshold(&self, access: &Access) -> f32 {
+        let (finer, weight) = self.blend(access.lod);
+        let of = |level: usize| self.thresholds.get(level).copied().unwrap_or(0.5);
+        if weight > 0.0 { (1.0 - weight) * of(finer) + weight * of(finer + 1) } else { of(finer) }
     }
 
     fn probe(&self, access: &Access, mut texel: impl FnMut(&Level, usize) -> [f32; 3]) -> [f32; 3] {

@@ -8,6 +8,7 @@ use super::prepare::Scene;
 use super::rasterise::{Screen, TILE};
 use super::study::Shot;
 use super::texture::Texture;
+use glam::DVec2;
 use rayon::prelude::*;
 
 /// Draws a frame of a shot at `side` x `side` places a pixel; `textures` hold colours multiplied by alpha.
@@ -17,7 +18,7 @@ use rayon::prelude::*;
 pub fn frame(scene: &Scene, textures: &[Texture], shot: &Shot, index: u32, side: u32) -> (Picture, Cost) {
     let camera = shot.camera(scene, index, side);
     let needs = Needs { texture_derivatives: true, ..Needs::default() };
-    let screen = Screen::new(&scene.mesh, &camera, f64::from(index), Space::Object, needs);
+    let screen = Screen::new(&scene.mesh, &camera, f64::from(index), DVec2::ZERO, Space::Object, needs);
     let tiles: Vec<(Vec<([f32; 3], f32)>, Cost)> = (0..screen.tiles())
         .into_par_iter()
         .map_init(Fragments::default, |fragments, tile| {
