@@ -20,7 +20,20 @@ macro_rules! gallery {
     };
 }
 
-gallery!["grazing-fence"];
+gallery![
+    "vanishing-foliage",
+    "mips-and-wires",
+    "samples-converge",
+    "grazing-fence",
+    "castano",
+    "fade-in",
+    "subpixel-motion",
+    "checkerboard",
+    "noise-scales",
+    "halo",
+    "coordinates",
+    "auto",
+];
 
 /// Returns the scene file of a name.
 #[must_use]

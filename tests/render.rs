@@ -1,0 +1,251 @@
+//! Scenes: the gallery shows what it must, plans cost what they predict, and an absent table leaves no trace.
+
+#![cfg(feature = "render")]
+
+use hashed_alpha::render::adjust::textures;
+use hashed_alpha::render::effects::{self, ALL, Effects};
+use hashed_alpha::render::file::{self, SceneFile, Takes};
+use hashed_alpha::render::gallery::GALLERY;
+use hashed_alpha::render::plan::{Plan, hashes, plan};
+use hashed_alpha::render::prepare::{Scene, prepare};
+use hashed_alpha::render::study::{Study, study};
+use hashed_alpha::threshold::batch::Model;
+use hashed_alpha::threshold::cdf::CdfForm;
+use hashed_alpha::threshold::footprint::Footprint;
+use hashed_alpha::threshold::hash::{Cell, Hash, HashKind};
+use hashed_alpha::threshold::hashed::HashedAlpha;
+use hashed_alpha::threshold::robust::{Join, Robust};
+use hashed_alpha::threshold::two_scale::Variant;
+use std::path::Path;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+fn read(name: &str) -> SceneFile {
+    let entry = GALLERY.iter().find(|entry| entry.name == name).expect("a scene of the gallery");
+    file::read(entry.text, name).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn ready(file: SceneFile) -> Scene {
+    prepare(file, Path::new("")).expect("built-in textures")
+}
+
+fn drawn(scene: &Scene) -> Study {
+    study(scene, &mut |_, _| {})
+}
+
+/// A small scene with every kind of stage: the file of `name` in a tenth of its pixels and two frames.
+fn small(name: &str) -> SceneFile {
+    let file = read(name);
+    let resolution = file.resolution.map(|side| side / 4);
+    SceneFile { resolution, frames: 2.try_into().expect("not zero"), expect: Vec::new(), truth: None, ..file }
+}
+
+fn with(file: &SceneFile, effects: Effects) -> Scene {
+    ready(SceneFile { effects: Takes::Sets(vec![effects]), ..file.clone() })
+}
+
+/// The sets of effects of all scenes, each with its scene, and one with much at once.
+fn takes() -> Vec<(SceneFile, Effects)> {
+    let mut takes = Vec::new();
+    for entry in GALLERY {
+        let file = small(entry.name);
+        if let Takes::Sets(sets) = &file.effects {
+            takes.extend(sets.iter().map(|set| (file.clone(), set.clone())));
+        }
+    }
+    let combined = r#"
+        name = "combined"
+        hashed = { variant = "anisotropic" }
+        independent = { frames = 4 }
+        coordinates = { space = "world" }
+        temporal = { frames = 4, order = "phase-rotated" }
+        alpha_to_coverage = { samples = 4, pattern = "decorrelated" }
+        fade_in = { full_noise_lod = 3.0, anisotropy = true }
+        premultiplied = {}
+        limited_level = { level = 4.0 }
+        supersampling = { samples = 2 }
+        jitter = { frames = 4 }
+        history = { weight = 0.2, clamp = true }
+        average = { frames = 4 }
+    "#;
+    takes.push((small("vanishing-foliage"), toml::from_str(combined).expect("known effects")));
+    takes
+}
+
+#[test]
+fn every_scene_shows_what_it_must() {
+    for entry in GALLERY {
+        let scene = ready(read(entry.name));
+        assert!(scene.file.sentence.is_some(), "{}", entry.name);
+        assert!(!scene.file.expect.is_empty(), "{} expects nothing", entry.name);
+        let study = drawn(&scene);
+        let wrong: Vec<&str> =
+            study.checked.iter().filter(|checked| !checked.holds).map(|checked| checked.text.as_str()).collect();
+        assert!(wrong.is_empty(), "{}: {wrong:#?}", entry.name);
+    }
+}
+
+#[test]
+fn an_expectation_that_does_not_come_out_is_told() {
+    let mut file = small("noise-scales");
+    file.expect = read("noise-scales").expect;
+    file.expect[0].at_most = Some(0.1);
+    file.expect[1].metric = "flipz".to_owned();
+    let checked = drawn(&ready(file)).checked;
+    assert!(!checked[0].holds && !checked[1].holds && checked[1].text.contains("was not measured"));
+}
+
+#[test]
+fn plans_cost_what_they_predict() {
+    for (file, effects) in takes() {
+        let scene = with(&file, effects);
+        let study = drawn(&scene);
+        for take in &study.takes {
+            let predicted = take.plan.predict(&scene, &textures(&scene, take.plan.textures));
+            assert_eq!(take.cost, predicted, "{}: {}", file.name, take.plan.name);
+        }
+    }
+    // What the planner chooses, too.
+    let scene = ready(small("auto"));
+    let study = drawn(&scene);
+    let take = &study.takes[0];
+    assert_eq!(take.cost, take.plan.predict(&scene, &textures(&scene, take.plan.textures)));
+}
+
+/// What a table leaves behind in a plan: stages by the effect that they simulate.
+fn traces(plan: &Plan, effect: &str) -> usize {
+    plan.stages.iter().filter(|stage| stage.effect() == Some(effect)).count()
+}
+
+#[test]
+fn an_absent_table_leaves_no_trace() {
+    let mut removed = 0;
+    for (file, set) in takes() {
+        let whole = plan(&set);
+        for known in ALL.iter().filter(|known| (known.is_in)(&set)) {
+            let mut rest = set.clone();
+            (known.remove)(&mut rest);
+            if effects::check(&rest).is_err() {
+                // Something else needs it.
+                continue;
+            }
+            removed += 1;
+            let without = plan(&rest);
+            assert_eq!(traces(&without, known.name), 0, "{}: {}", file.name, known.name);
+            let names = |plan: &Plan| plan.needs.names();
+            assert!(names(&without).iter().all(|need| names(&whole).contains(need)), "{}", known.name);
+            let costs = |plan: &Plan| plan.cost_of_frame(1000, 8000, 100).quantities();
+            let cheaper = costs(&without).into_iter().zip(costs(&whole)).all(|(less, more)| less.1 <= more.1);
+            assert!(cheaper, "{}: {}", file.name, known.name);
+            let (with, without) = (whole.shader().expect("sound"), without.shader().expect("sound"));
+            if let (Some(with), Some(without)) = (with, without) {
+                let chunks = |text: &str| text.matches("\nfn ").count();
+                assert!(chunks(&without) <= chunks(&with), "{}: {}", file.name, known.name);
+            }
+        }
+        assert_eq!(ALL.iter().map(|known| traces(&plan(&Effects::default()), known.name)).sum::<usize>(), 1);
+    }
+    assert!(removed > 30, "{removed}");
+}
+
+#[test]
+fn shader_text_has_the_chunks_of_its_stages_only() {
+    let of = |text: &str| {
+        let set: Effects = toml::from_str(text).expect("known effects");
+        plan(&set).shader().expect("sound").expect("a shader")
+    };
+    for (with, chunk, without) in [
+        ("hashed = {}\nfade_in = {}", "fn fade_in", "hashed = {}"),
+        ("hashed = {}\ntemporal = { frames = 8 }", "fn stratified", "hashed = {}"),
+        ("robust = {}\nalpha_to_coverage = { samples = 4, pattern = 'decorrelated' }", "fn fragment_pair", "robust = {}"),
+        ("robust = { variant = 'anisotropic' }", "fn robust", "fixed = {}"),
+        ("hashed = {}", "fn hash", "stochastic = {}"),
+    ] {
+        assert!(of(with).contains(chunk), "{with}");
+        assert!(!of(without).contains(chunk), "{without}");
+    }
+}
+
+/// A hash that counts how often it is asked.
+struct Counting<'a>(HashKind, &'a AtomicU64);
+
+impl Hash<f32> for Counting<'_> {
+    fn hash(&self, cell: &Cell<f32>) -> f32 {
+        self.1.fetch_add(1, Ordering::Relaxed);
+        Hash::<f32>::hash(&self.0, cell)
+    }
+}
+
+#[test]
+fn a_threshold_takes_as_many_hashes_as_its_plan_says() {
+    let footprint = Footprint::<f32> {
+        position: glam::vec3(0.31, -1.72, 2.43),
+        dpdx: glam::vec3(0.012, 0.003, -0.007),
+        dpdy: glam::vec3(0.002, 0.0094, 0.0033),
+    };
+    for variant in Variant::ALL {
+        let count = AtomicU64::new(0);
+        let hash = Counting(HashKind::Mm4, &count);
+        let form = CdfForm::Literal;
+        let _ = HashedAlpha { variant, hash, hash_scale: 1.0, form }.threshold(&footprint);
+        let model = Model::Hashed(HashedAlpha { variant, hash: HashKind::Mm4, hash_scale: 1.0, form });
+        assert_eq!(count.load(Ordering::Relaxed), hashes(&model), "{variant}");
+    }
+    for variant in [Variant::Isotropic, Variant::Anisotropic] {
+        for join in Join::ALL {
+            let count = AtomicU64::new(0);
+            let preset = Robust { join, ..Robust::new(variant) };
+            let Robust { hash_scale, repairs, .. } = preset;
+            let counting = Robust { variant, hash: Counting(HashKind::Mm4, &count), hash_scale, join, repairs };
+            counting.threshold(&footprint).expect("a finite footprint");
+            assert_eq!(count.load(Ordering::Relaxed), hashes(&Model::Robust(preset)), "{variant} {join}");
+        }
+    }
+}
+
+#[test]
+fn one_thread_or_two_draw_the_same() {
+    for name in ["vanishing-foliage", "subpixel-motion", "samples-converge"] {
+        let scene = ready(small(name));
+        let with = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+            pool.install(|| drawn(&scene))
+        };
+        let (one, two) = (with(1), with(2));
+        for (one, two) in one.takes.iter().zip(&two.takes) {
+            assert_eq!(one.sequence, two.sequence);
+            assert_eq!((&one.metrics, one.cost, &one.mean), (&two.metrics, two.cost, &two.mean));
+        }
+        assert_eq!(one.sheet(None), two.sheet(None));
+        // Another seed draws something else.
+        let other = ready(SceneFile { seed: 1, ..scene.file.clone() });
+        assert_ne!(drawn(&other).takes[0].mean, one.takes[0].mean, "{name}");
+    }
+}
+
+#[test]
+fn alpha_0_never_shows_and_alpha_1_has_no_hole() {
+    let file = small("noise-scales");
+    for (_, set) in takes() {
+        for alpha in [0.0, 1.0] {
+            let mut file = file.clone();
+            file.texture[0].constant.as_mut().expect("a veil").alpha = alpha;
+            // The edges of the card are outside the picture.
+            let study = drawn(&with(&file, set.clone()));
+            let coverage = study.takes[0].metrics["coverage"];
+            assert_eq!(coverage, alpha, "{:?}", study.takes[0].plan.name);
+        }
+    }
+}
+
+#[test]
+fn a_scene_that_calls_for_nothing_gets_the_plain_alpha_test() {
+    let near = |distance: f64| {
+        let text = format!(
+            "name = 'card'\neffects = 'auto'\nresolution = [120, 90]\n[camera]\neye = [0.1, 0.2, {distance}]\ntarget = [0.0, 0.0, 0.0]\n\
+             [[texture]]\nname = 'leaf'\nleaves = {{}}\n[[surface]]\ntexture = 'leaf'\ncard = {{ size = [1.0, 1.0] }}\n"
+        );
+        drawn(&ready(file::read(&text, "card.toml").expect("sound"))).takes[0].plan.clone()
+    };
+    assert_eq!(traces(&near(1.0), "fixed"), 1);
+    assert_eq!(traces(&near(40.0), "robust"), 1);
+}

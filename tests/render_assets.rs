@@ -1,0 +1,221 @@
+//! A user's own images and meshes either work or are refused with a message that names the file and the reason.
+
+#![cfg(feature = "render")]
+
+use hashed_alpha::render::file;
+use hashed_alpha::render::prepare::{Scene, prepare};
+use image::{DynamicImage, GrayImage, RgbImage, RgbaImage};
+use std::fs;
+use std::path::Path;
+
+fn scene(folder: &Path, texture: &str, surface: &str) -> Result<Scene, String> {
+    let text = format!(
+        "name = 's'\n[camera]\neye = [0.0, 0.0, 5.0]\ntarget = [0.0, 0.0, 0.0]\n{texture}\n[[surface]]\n{surface}\n"
+    );
+    let file = file::read(&text, "s.toml").expect("a sound scene file");
+    prepare(file, folder).map_err(|error| {
+        let mut message = error.to_string();
+        let mut cause = std::error::Error::source(&error);
+        while let Some(source) = cause {
+            message += &format!(": {source}");
+            cause = source.source();
+        }
+        message
+    })
+}
+
+fn with_image(folder: &Path, name: &str, alpha: &str) -> Result<Scene, String> {
+    let texture = format!("[[texture]]\nname = 't'\nimage = {{ file = '{name}', alpha = '{alpha}' }}");
+    scene(folder, &texture, "texture = 't'\ncard = { size = [1.0, 1.0] }")
+}
+
+#[test]
+fn images_of_every_kind_are_read() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let save = |name: &str, image: DynamicImage| image.save(folder.path().join(name)).expect("written");
+    save("large.png", RgbaImage::from_pixel(4096, 4096, image::Rgba([9, 99, 9, 51])).into());
+    save("deep.png", DynamicImage::ImageRgba16(image::ImageBuffer::from_pixel(8, 4, image::Rgba([0, 0, 0, 13_107]))));
+    save("wide.png", RgbaImage::from_pixel(65_535, 1, image::Rgba([0, 0, 0, 51])).into());
+    save("grey-alpha.png", DynamicImage::ImageLumaA8(image::ImageBuffer::from_pixel(3, 5, image::LumaA([255, 51]))));
+    for name in ["large.png", "deep.png", "wide.png", "grey-alpha.png"] {
+        let scene = with_image(folder.path(), name, "alpha").unwrap_or_else(|error| panic!("{error}"));
+        let texture = &scene.textures(false)[0];
+        assert!((texture.levels[0].mean_alpha() - 0.2).abs() < 1e-4, "{name}");
+        assert_eq!(texture.levels.last().expect("a level").size, [1, 1]);
+    }
+    save("grey.png", GrayImage::from_pixel(3, 5, image::Luma([51])).into());
+    save("colour.jpg", RgbImage::from_pixel(16, 16, image::Rgb([51, 51, 51])).into());
+    for name in ["grey.png", "colour.jpg"] {
+        let scene = with_image(folder.path(), name, "luminance").unwrap_or_else(|error| panic!("{error}"));
+        assert!((scene.textures(false)[0].levels[0].mean_alpha() - 0.2).abs() < 0.01, "{name}");
+    }
+    let mut palette = Vec::new();
+    let mut encoder = png::Encoder::new(&mut palette, 2, 1);
+    encoder.set_color(png::ColorType::Indexed);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_palette(vec![255, 0, 0, 0, 255, 0]);
+    encoder.set_trns(vec![0, 102]);
+    encoder.write_header().expect("a header").write_image_data(&[0, 1]).expect("pixels");
+    fs::write(folder.path().join("palette.png"), palette).expect("written");
+    let scene = with_image(folder.path(), "palette.png", "alpha").unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(scene.textures(false)[0].levels[0].alpha, [0.0, 0.4]);
+}
+
+#[test]
+fn images_that_cannot_be_used_are_refused_with_the_reason() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let place = |name: &str| folder.path().join(name);
+    GrayImage::new(4, 4).save(place("grey.png")).expect("written");
+    RgbaImage::new(64, 64).save(place("sound.png")).expect("written");
+    let sound = fs::read(place("sound.png")).expect("read");
+    fs::write(place("truncated.png"), &sound[..sound.len() / 2]).expect("written");
+    fs::write(place("empty.png"), []).expect("written");
+    fs::write(place("text.png"), "no image").expect("written");
+    // Width and height stand at bytes 16 to 23.
+    let mut none = sound.clone();
+    none[16..20].fill(0);
+    fs::write(place("zero.png"), none).expect("written");
+    let mut huge = sound;
+    huge[16..24].fill(0x7f);
+    fs::write(place("huge.png"), huge).expect("written");
+    fs::create_dir(place("folder.png")).expect("made");
+    for (name, reason) in [
+        ("grey.png", "no alpha channel; write `alpha = \"luminance\"`"),
+        ("truncated.png", "cannot read"),
+        ("empty.png", "cannot read"),
+        ("text.png", "cannot read"),
+        ("zero.png", "cannot read"),
+        ("huge.png", "cannot read"),
+        ("missing.png", "cannot open"),
+        ("folder.png", ""),
+    ] {
+        let message = with_image(folder.path(), name, "alpha").map(|_| ()).expect_err(name);
+        assert!(message.contains(name) && message.contains(reason), "{message}");
+    }
+}
+
+/// A triangle as glTF: its buffer is named by `buffer`, its texture by `image`.
+fn gltf(buffer: &str, image: &str, indices: &str) -> String {
+    let material = if image.is_empty() {
+        String::new()
+    } else {
+        format!(
+            r#""images":[{{"uri":"{image}"}}],"textures":[{{"source":0}}],
+               "materials":[{{"pbrMetallicRoughness":{{"baseColorTexture":{{"index":0}}}},"alphaMode":"MASK"}}],"#
+        )
+    };
+    let use_material = if image.is_empty() { "" } else { r#","material":0"# };
+    format!(
+        r#"{{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0]}}],
+        "nodes":[{{"mesh":0,"translation":[1.0,0.0,0.0]}}],{material}
+        "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0,"TEXCOORD_0":1}}{use_material}{indices}}}]}}],
+        "buffers":[{{"byteLength":66{buffer}}}],
+        "bufferViews":[{{"buffer":0,"byteLength":36}},{{"buffer":0,"byteOffset":36,"byteLength":24}},
+                       {{"buffer":0,"byteOffset":60,"byteLength":6}}],
+        "accessors":[
+          {{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}},
+          {{"bufferView":1,"componentType":5126,"count":3,"type":"VEC2"}},
+          {{"bufferView":2,"componentType":5123,"count":3,"type":"SCALAR"}}]}}"#
+    )
+}
+
+/// Three corners, three texture coordinates, three indices.
+fn triangle(indices: [u16; 3]) -> Vec<u8> {
+    let floats = [0.0_f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0, 1.0, 0.0, 0.0];
+    let bytes = floats.iter().flat_map(|value| value.to_le_bytes());
+    bytes.chain(indices.iter().flat_map(|index| index.to_le_bytes())).collect()
+}
+
+fn base64(bytes: &[u8]) -> String {
+    const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    bytes
+        .chunks(3)
+        .flat_map(|three| {
+            let at = |i: usize| u32::from(three.get(i).copied().unwrap_or(0));
+            let word = at(0) << 16 | at(1) << 8 | at(2);
+            let letter = move |i: u32| char::from(LETTERS[(word >> (18 - 6 * i) & 63) as usize]);
+            let length = three.len();
+            (0..4).map(move |i| if i as usize <= length { letter(i) } else { '=' })
+        })
+        .collect()
+}
+
+const INDEXED: &str = r#","indices":2"#;
+
+#[test]
+fn meshes_are_read_embedded_external_and_binary() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let place = |name: &str| folder.path().join(name);
+    let data = triangle([0, 1, 2]);
+    RgbaImage::from_pixel(2, 2, image::Rgba([0, 0, 0, 102])).save(place("leaf.png")).expect("written");
+    RgbImage::from_pixel(2, 2, image::Rgb([0, 0, 0])).save(place("bark.png")).expect("written");
+    fs::write(place("data.bin"), &data).expect("written");
+    let embedded = format!(r#","uri":"data:application/octet-stream;base64,{}""#, base64(&data));
+    let external = r#","uri":"data.bin""#;
+    fs::write(place("embedded.gltf"), gltf(&embedded, "leaf.png", INDEXED)).expect("written");
+    fs::write(place("external.gltf"), gltf(external, "leaf.png", "")).expect("written");
+    fs::write(place("opaque.gltf"), gltf(external, "bark.png", INDEXED)).expect("written");
+    fs::write(place("plain.gltf"), gltf(external, "", INDEXED)).expect("written");
+    let mut json = gltf("", "leaf.png", INDEXED).into_bytes();
+    json.resize(json.len().next_multiple_of(4), b' ');
+    let mut padded = data;
+    padded.resize(padded.len().next_multiple_of(4), 0);
+    let mut glb = b"glTF".to_vec();
+    for word in [2, 12 + 8 + json.len() + 8 + padded.len(), json.len(), 0x4e4f_534a] {
+        glb.extend((word as u32).to_le_bytes());
+    }
+    glb.extend(json);
+    for word in [padded.len(), 0x004e_4942] {
+        glb.extend((word as u32).to_le_bytes());
+    }
+    glb.extend(padded);
+    fs::write(place("binary.glb"), glb).expect("written");
+    for (name, alpha) in [
+        ("embedded.gltf", 0.4),
+        ("external.gltf", 0.4),
+        ("binary.glb", 0.4),
+        ("opaque.gltf", 1.0),
+        ("plain.gltf", 1.0),
+    ] {
+        let surface = format!("mesh = {{ file = '{name}', scale = 2.0 }}");
+        let scene = scene(folder.path(), "", &surface).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(scene.mesh.triangles.len(), 1, "{name}");
+        // Moved by its node, scaled by the scene.
+        assert_eq!(scene.mesh.vertices[1].object, glam::dvec3(4.0, 0.0, 0.0), "{name}");
+        assert!((scene.textures(false)[0].levels[0].mean_alpha() - alpha).abs() < 1e-6, "{name}");
+    }
+    // A texture of the scene in place of its own, which may then be missing.
+    fs::write(place("untextured.gltf"), gltf(external, "gone.png", INDEXED)).expect("written");
+    let texture = "[[texture]]\nname = 't'\nconstant = { alpha = 0.25 }";
+    let scene = scene(folder.path(), texture, "texture = 't'\nmesh = { file = 'untextured.gltf' }");
+    assert_eq!(scene.unwrap_or_else(|error| panic!("{error}")).textures(false)[0].levels[0].alpha[0], 0.25);
+}
+
+#[test]
+fn meshes_that_cannot_be_drawn_are_refused_with_the_reason() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let place = |name: &str| folder.path().join(name);
+    fs::write(place("data.bin"), triangle([0, 1, 2])).expect("written");
+    fs::write(place("wild.bin"), triangle([0, 1, 7])).expect("written");
+    let buffer = |name: &str| format!(r#","uri":"{name}""#);
+    let sound = gltf(&buffer("data.bin"), "", INDEXED);
+    fs::write(place("texture.gltf"), gltf(&buffer("data.bin"), "gone.png", INDEXED)).expect("written");
+    fs::write(place("buffer.gltf"), gltf(&buffer("gone.bin"), "", INDEXED)).expect("written");
+    fs::write(place("wild.gltf"), gltf(&buffer("wild.bin"), "", INDEXED)).expect("written");
+    fs::write(place("broken.gltf"), &sound[..sound.len() / 2]).expect("written");
+    fs::write(place("nothing.gltf"), r#"{"asset":{"version":"2.0"}}"#).expect("written");
+    fs::write(place("text.glb"), "no mesh").expect("written");
+    for (name, reason) in [
+        ("texture.gltf", "cannot read"),
+        ("buffer.gltf", "cannot read"),
+        ("wild.gltf", "names a vertex that is not there"),
+        ("broken.gltf", "cannot read"),
+        ("nothing.gltf", "no scene"),
+        ("text.glb", "cannot read"),
+        ("missing.gltf", "cannot read"),
+    ] {
+        let surface = format!("mesh = {{ file = '{name}' }}");
+        let message = scene(folder.path(), "", &surface).map(|_| ()).expect_err(name);
+        assert!(message.contains(name) && message.contains(reason), "{message}");
+    }
+}
