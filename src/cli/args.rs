@@ -333,7 +333,7 @@ pub struct RenderArgs {
 
 /// Lists the built-in scenes, or prints one
 ///
-/// A scene of footprints is printed as CSV, one of the render gallery as a scene file to start from. Footprints come in the form that `eval` reads: pixels row by row, and in each pixel the surfaces that it sees.
+/// Those marked `rows` are printed as CSV, those marked `file` as a scene file to start from, for `explain` and `render`. Footprints come in the form that `eval` reads: pixels row by row, and in each pixel the surfaces that it sees.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:

@@ -29,17 +29,16 @@ pub fn run(args: &ScenesArgs) -> Result<Ending, Failure> {
     Ok(Ending::Consistent)
 }
 
+/// One line a scene: `rows` are for `eval`, a `file` is for `explain` and `render`.
 fn write_list(output: &mut impl Write) -> io::Result<()> {
     let scenes = Scene::all();
     let drawn = gallery::GALLERY;
     let names = scenes.iter().map(|scene| scene.name).chain(drawn.iter().map(|entry| entry.name));
     let width = names.map(str::len).max().unwrap_or(0);
-    writeln!(output, "footprints, for eval:")?;
     for scene in &scenes {
-        writeln!(output, "{:width$}  {}", scene.name, scene.description)?;
+        writeln!(output, "{:width$}  rows  {}", scene.name, scene.description)?;
     }
-    writeln!(output, "pictures, for explain and render:")?;
-    drawn.iter().try_for_each(|entry| writeln!(output, "{:width$}  {}", entry.name, entry.sentence()))
+    drawn.iter().try_for_each(|entry| writeln!(output, "{:width$}  file  {}", entry.name, entry.sentence()))
 }
 
 fn write_scene(output: &mut impl Write, scene: Scene, args: &ScenesArgs) -> io::Result<()> {
