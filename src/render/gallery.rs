@@ -25,6 +25,7 @@ gallery![
     "mips-and-wires",
     "samples-converge",
     "grazing-fence",
+    "axis-plane",
     "castano",
     "fade-in",
     "subpixel-motion",

@@ -16,9 +16,12 @@ pub struct Surface {
     /// Its place in the world, in object units.
     #[serde(default)]
     pub position: [f64; 3],
-    /// Turns about x, y and z, in degrees.
+    /// Turns about x, y and z in the world, in degrees.
     #[serde(default)]
     pub turn: [f64; 3],
+    /// The same within the coordinates of its object, which are hashed: models seldom follow their axes exactly.
+    #[serde(default)]
+    pub model_turn: [f64; 3],
     /// Change of its place, in object units per frame.
     #[serde(default)]
     pub drift: [f64; 3],
@@ -157,10 +160,8 @@ impl Surface {
     /// Returns how it stands in the world and moves.
     #[must_use]
     pub fn object(&self) -> Object {
-        let [x, y, z] = self.turn.map(f64::to_radians);
-        let turn = DQuat::from_euler(EulerRot::YXZ, y, x, z);
         Object {
-            to_world: DAffine3::from_rotation_translation(turn, self.position.into()),
+            to_world: DAffine3::from_rotation_translation(turned(self.turn), self.position.into()),
             drift: self.drift.into(),
             spin: self.spin.to_radians(),
             sway: self.sway,
@@ -170,8 +171,9 @@ impl Surface {
     /// Adds its triangles to a mesh, but for those that come from a file.
     pub fn build(&self, mesh: &mut Mesh, object: u32, texture: u32, seed: u64) {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed ^ (u64::from(object) << 32) ^ 0x5eed);
+        let model = DAffine3::from_quat(turned(self.model_turn));
         let mut add = |size: [f64; 2], repeat: [f64; 2], place: DAffine3| {
-            mesh.quad(rectangle(size, repeat, place), object, texture);
+            mesh.quad(rectangle(size, repeat, model * place), object, texture);
         };
         if let Some(Card { size, repeat }) = &self.card {
             add(*size, *repeat, DAffine3::IDENTITY);
@@ -217,6 +219,12 @@ impl Surface {
             }
         }
     }
+}
+
+/// Turns about x, y and z, in degrees.
+fn turned(degrees: [f64; 3]) -> DQuat {
+    let [x, y, z] = degrees.map(f64::to_radians);
+    DQuat::from_euler(EulerRot::YXZ, y, x, z)
 }
 
 /// A rectangle in its own plane of constant z, put in its place in the object.
