@@ -595,7 +595,9 @@ fn a_scene_of_the_gallery_is_a_file_to_start_from() {
     std::fs::write(&file, &scene).unwrap();
     let small = ["--resolution", "45x35", "--frames", "2"];
     let explained = succeed(&[&["explain", file.to_str().unwrap(), "--shader"][..], &small].concat(), "");
-    for word in ["runs     hash: isotropic listing", "costs    2 frames", "fn threshold(", "runs not supersampling"] {
+    for word in
+        ["runs     hash: isotropic listing", "costs    2 frames", "fn threshold(", "runs not supersampling"]
+    {
         assert!(explained.contains(word), "{word}: {explained}");
     }
     let out = folder.path().join("pictures");

@@ -32,7 +32,7 @@ fn drawn(scene: &Scene) -> Study {
     study(scene, &mut |_, _| {})
 }
 
-/// A small scene with every kind of stage: the file of `name` in a tenth of its pixels and two frames.
+/// The scene of a name in a sixteenth of its pixels and two frames, without truth.
 fn small(name: &str) -> SceneFile {
     let file = read(name);
     let resolution = file.resolution.map(|side| side / 4);
@@ -78,8 +78,12 @@ fn every_scene_shows_what_it_must() {
         assert!(scene.file.sentence.is_some(), "{}", entry.name);
         assert!(!scene.file.expect.is_empty(), "{} expects nothing", entry.name);
         let study = drawn(&scene);
-        let wrong: Vec<&str> =
-            study.checked.iter().filter(|checked| !checked.holds).map(|checked| checked.text.as_str()).collect();
+        let wrong: Vec<&str> = study
+            .checked
+            .iter()
+            .filter(|checked| !checked.holds)
+            .map(|checked| checked.text.as_str())
+            .collect();
         assert!(wrong.is_empty(), "{}: {wrong:#?}", entry.name);
     }
 }
@@ -148,6 +152,31 @@ fn an_absent_table_leaves_no_trace() {
 }
 
 #[test]
+fn an_absent_table_of_the_scene_is_not_measured() {
+    let file = SceneFile { truth: read("vanishing-foliage").truth, ..small("vanishing-foliage") };
+    let names =
+        |file: SceneFile| -> Vec<String> { drawn(&ready(file)).takes[0].metrics.keys().cloned().collect() };
+    let whole = names(file.clone());
+    let still = SceneFile {
+        camera: hashed_alpha::render::view::View { motion: None, ..file.camera.clone() },
+        frames: 1.try_into().expect("not zero"),
+        ..file.clone()
+    };
+    for (without, gone) in [
+        (SceneFile { truth: None, ..file.clone() }, &["rmse", "ssim", "coverage_ratio"][..]),
+        (SceneFile { distance: None, ..file.clone() }, &["@"]),
+        (SceneFile { layers: None, ..file.clone() }, &["layer_correlation"]),
+        (still, &["flips"]),
+    ] {
+        let left = names(without);
+        for gone in gone {
+            assert!(whole.iter().any(|name| name.contains(gone)), "{gone}");
+            assert!(!left.iter().any(|name| name.contains(gone)), "{gone}: {left:?}");
+        }
+    }
+}
+
+#[test]
 fn shader_text_has_the_chunks_of_its_stages_only() {
     let of = |text: &str| {
         let set: Effects = toml::from_str(text).expect("known effects");
@@ -156,7 +185,11 @@ fn shader_text_has_the_chunks_of_its_stages_only() {
     for (with, chunk, without) in [
         ("hashed = {}\nfade_in = {}", "fn fade_in", "hashed = {}"),
         ("hashed = {}\ntemporal = { frames = 8 }", "fn stratified", "hashed = {}"),
-        ("robust = {}\nalpha_to_coverage = { samples = 4, pattern = 'decorrelated' }", "fn fragment_pair", "robust = {}"),
+        (
+            "robust = {}\nalpha_to_coverage = { samples = 4, pattern = 'decorrelated' }",
+            "fn fragment_pair",
+            "robust = {}",
+        ),
         ("robust = { variant = 'anisotropic' }", "fn robust", "fixed = {}"),
         ("hashed = {}", "fn hash", "stochastic = {}"),
     ] {
@@ -195,7 +228,8 @@ fn a_threshold_takes_as_many_hashes_as_its_plan_says() {
             let count = AtomicU64::new(0);
             let preset = Robust { join, ..Robust::new(variant) };
             let Robust { hash_scale, repairs, .. } = preset;
-            let counting = Robust { variant, hash: Counting(HashKind::Mm4, &count), hash_scale, join, repairs };
+            let counting =
+                Robust { variant, hash: Counting(HashKind::Mm4, &count), hash_scale, join, repairs };
             counting.threshold(&footprint).expect("a finite footprint");
             assert_eq!(count.load(Ordering::Relaxed), hashes(&Model::Robust(preset)), "{variant} {join}");
         }

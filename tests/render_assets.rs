@@ -34,9 +34,15 @@ fn images_of_every_kind_are_read() {
     let folder = tempfile::tempdir().expect("a folder");
     let save = |name: &str, image: DynamicImage| image.save(folder.path().join(name)).expect("written");
     save("large.png", RgbaImage::from_pixel(4096, 4096, image::Rgba([9, 99, 9, 51])).into());
-    save("deep.png", DynamicImage::ImageRgba16(image::ImageBuffer::from_pixel(8, 4, image::Rgba([0, 0, 0, 13_107]))));
+    save(
+        "deep.png",
+        DynamicImage::ImageRgba16(image::ImageBuffer::from_pixel(8, 4, image::Rgba([0, 0, 0, 13_107]))),
+    );
     save("wide.png", RgbaImage::from_pixel(65_535, 1, image::Rgba([0, 0, 0, 51])).into());
-    save("grey-alpha.png", DynamicImage::ImageLumaA8(image::ImageBuffer::from_pixel(3, 5, image::LumaA([255, 51]))));
+    save(
+        "grey-alpha.png",
+        DynamicImage::ImageLumaA8(image::ImageBuffer::from_pixel(3, 5, image::LumaA([255, 51]))),
+    );
     for name in ["large.png", "deep.png", "wide.png", "grey-alpha.png"] {
         let scene = with_image(folder.path(), name, "alpha").unwrap_or_else(|error| panic!("{error}"));
         let texture = &scene.textures(false)[0];

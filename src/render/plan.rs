@@ -313,6 +313,11 @@ fn source(effects: &Effects, space: Space) -> Option<Stage> {
     Some(Stage::Fixed(effects.fixed.as_ref().map_or(FIXED_THRESHOLD as f32, |fixed| fixed.threshold)))
 }
 
+/// Whether shader text, which knows the traditional threshold only, can have this one.
+fn is_traditional(threshold: f32) -> bool {
+    (f64::from(threshold) - FIXED_THRESHOLD).abs() < f64::EPSILON
+}
+
 /// A name made of the tables that are present.
 fn name(effects: &Effects) -> String {
     let present: Vec<&str> =
@@ -468,7 +473,7 @@ impl Plan {
             |n: &NonZeroU32| core::num::NonZeroU16::try_from(*n).unwrap_or(core::num::NonZeroU16::MAX);
         for stage in &self.stages {
             match stage {
-                Stage::Fixed(threshold) if f64::from(*threshold) != FIXED_THRESHOLD => return Ok(None),
+                Stage::Fixed(threshold) if !is_traditional(*threshold) => return Ok(None),
                 Stage::Stochastic => options.source = assemble::Source::Stochastic,
                 Stage::Hash(Model::Hashed(hashed), _) => {
                     options.source = assemble::Source::Listing(hashed.form);
@@ -499,7 +504,7 @@ impl Plan {
                         decorrelated: *pattern == Pattern::Decorrelated,
                     });
                 }
-                Stage::FadeIn(fade_in) if f64::from(fade_in.authored) != FIXED_THRESHOLD => return Ok(None),
+                Stage::FadeIn(fade_in) if !is_traditional(fade_in.authored) => return Ok(None),
                 Stage::FadeIn(fade_in) => {
                     let FadeIn { full_noise_lod, anisotropy, .. } = *fade_in;
                     options.fade_in = Some(assemble::FadeIn { full_noise_lod, anisotropy });

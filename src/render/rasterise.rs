@@ -13,7 +13,8 @@ use rayon::prelude::*;
 /// Pixels along each side of a tile.
 pub const TILE: u32 = 32;
 
-/// Surfaces nearer than this share of the distance between camera and origin of depth are cut off.
+/// Surfaces nearer than this are cut off, in units of the distance between camera and world origin or in object units,
+/// whichever is more.
 const NEAR: f64 = 1.0e-4;
 
 /// A function that is affine over the screen: value = x * pixel.x + y * pixel.y + z.
@@ -168,10 +169,10 @@ impl Screen {
                 }
             };
             let columns = &mut out.footprint;
-            for c in 0..3 {
-                columns.position[c].push(place[c] as f32);
-                columns.dpdx[c].push(dx[c] as f32);
-                columns.dpdy[c].push(dy[c] as f32);
+            for (c, ((place, dx), dy)) in place.into_iter().zip(dx).zip(dy).enumerate() {
+                columns.position[c].push(place as f32);
+                columns.dpdx[c].push(dx as f32);
+                columns.dpdy[c].push(dy as f32);
             }
         }
     }

@@ -251,20 +251,25 @@ impl Draw<'_> {
         rng: &mut Xoshiro256PlusPlus,
         cost: &mut Cost,
     ) {
-        let chi = core::mem::take(&mut work.threshold);
         let n = samples.get();
-        for at in 0..work.fragments.len() {
+        let fragments = work.fragments.len();
+        let chi = core::mem::take(&mut work.threshold);
+        if pattern == Pattern::Regular {
+            work.threshold.extend((0..fragments).flat_map(|_| (0..n).map(|i| regular::<f32>(i, samples))));
+        }
+        for (at, chi) in chi.into_iter().enumerate() {
             match pattern {
-                Pattern::Regular => work.threshold.extend((0..n).map(|i| regular::<f32>(i, samples))),
-                Pattern::Jittered => work.threshold.extend((0..n).map(|i| jittered(chi[at], i, samples))),
+                // Done above: it has no noise to start from.
+                Pattern::Regular => {}
+                Pattern::Jittered => work.threshold.extend((0..n).map(|i| jittered(chi, i, samples))),
                 Pattern::Decorrelated => {
                     let xi = self.pair(&work.fragments, tile, at);
                     cost.hashes += 1;
-                    let strata = (0..n).map(|i| jittered(chi[at], decorrelated(xi, i, samples), samples));
+                    let strata = (0..n).map(|i| jittered(chi, decorrelated(xi, i, samples), samples));
                     work.threshold.extend(strata);
                 }
                 Pattern::Independent => {
-                    work.threshold.push(chi[at]);
+                    work.threshold.push(chi);
                     work.threshold.extend((1..n).map(|_| stochastic::threshold::<f32>(rng)));
                     cost.randoms += u64::from(n - 1);
                 }

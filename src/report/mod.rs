@@ -11,8 +11,7 @@
 //! | [`directory`] | `cli` | all of that as files |
 //!
 //! What lives here takes what others found out and shows it. What never will: statistics, verdicts, thresholds of its
-//! own making, printing, clocks. May import [`check`](crate::check), `scene`, [`threshold`](crate::threshold) and
-//! `stats`; only the command line and the plots import it.
+//! own making, printing, clocks. May import every wing but `cli`; only the command line and the plots import it.
 
 #[cfg(feature = "cli")]
 pub mod by_model;

@@ -47,6 +47,16 @@ pub fn write_plans(scene: &Scene, planned: &[Planned], out: &mut impl Write) -> 
         let skipped: Vec<&str> = plan.skipped(effects).map(|(known, _)| known.name).collect();
         writeln!(out, "  runs not {}: the scene has no such tables", skipped.join(", "))?;
     }
+    for (table, what) in [
+        (scene.file.truth.is_some(), "error to the truth: no table [truth]"),
+        (scene.file.distance.is_some(), "coverage against distance: no table [distance]"),
+        (scene.file.layers.is_some(), "correlation of layers: no table [layers]"),
+        (scene.file.camera.motion.is_some(), "flips by cause: no table [camera.motion]"),
+    ] {
+        if !table {
+            writeln!(out, "not measured: {what}")?;
+        }
+    }
     Ok(())
 }
 
