@@ -266,7 +266,8 @@ fn alpha_0_never_shows_and_alpha_1_has_no_hole() {
             // The edges of the card are outside the picture.
             let study = drawn(&with(&file, set.clone()));
             let coverage = study.takes[0].metrics["coverage"];
-            assert_eq!(coverage, alpha, "{:?}", study.takes[0].plan.name);
+            // A single pixel would be 3e-4; averages round.
+            assert!((coverage - alpha).abs() < 1e-6, "{coverage}: {}", study.takes[0].plan.name);
         }
     }
 }
@@ -280,6 +281,6 @@ fn a_scene_that_calls_for_nothing_gets_the_plain_alpha_test() {
         );
         drawn(&ready(file::read(&text, "card.toml").expect("sound"))).takes[0].plan.clone()
     };
-    assert_eq!(traces(&near(1.0), "fixed"), 1);
+    assert_eq!(traces(&near(0.5), "fixed"), 1);
     assert_eq!(traces(&near(40.0), "robust"), 1);
 }

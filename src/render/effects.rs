@@ -58,7 +58,7 @@ macro_rules! effects {
 
 effects! {
     supersampling: Supersampling, "§3", "Tests at several places of each pixel and averages",
-        "passes, fragments and all that follows, samples^2 times";
+        "fragments and all that follows, samples^2 times";
     premultiplied: Premultiplied, "§7.3", "Stores colours multiplied by alpha and divides after filtering",
         "a division a shaded sample";
     finest_level: FinestLevel, "§3", "Reads alpha from the finest level, however far the surface",
