@@ -38,8 +38,11 @@ pub fn choose(scene: &Scene, textures: &[Texture]) -> Choice {
     if bias <= TOLERANCE {
         effects.fixed = Some(Fixed { threshold: 0.5 });
         reasons.push(format!(
-            "fixed: it gains or loses {} of the coverage, {} of the fragments have an alpha between 0 and 1; saves 2 hashes for each of {} fragments and all noise",
-            percent(bias), partial, survey.fragments
+            "fixed: it gains or loses {} of the coverage, {} of the fragments have an alpha \
+             between 0 and 1; saves 2 hashes for each of {} fragments and all noise",
+            percent(bias),
+            partial,
+            survey.fragments
         ));
         return Choice { effects, reasons };
     }
@@ -48,8 +51,12 @@ pub fn choose(scene: &Scene, textures: &[Texture]) -> Choice {
     let each = if variant == Variant::Anisotropic { 8 } else { 2 };
     effects.robust = Some(RobustHash { variant, hash: HashKind::Mm4, hash_scale: 1.0, join: None });
     reasons.push(format!(
-        "robust, {variant}: the fixed test gains or loses {} of the coverage; {} of the footprints are more than twice as long as wide; costs {each} hashes for each of {} fragments, risks grain where alpha is between 0 and 1 ({partial} of the fragments)",
-        percent(bias), percent(oblique), survey.fragments
+        "robust, {variant}: the fixed test gains or loses {} of the coverage; {} of the \
+             footprints are more than twice as long as wide; costs {each} hashes for each of {} \
+             fragments, risks grain where alpha is between 0 and 1 ({partial} of the fragments)",
+        percent(bias),
+        percent(oblique),
+        survey.fragments
     ));
     if let Some(level) = survey.first_wrong_level(TOLERANCE)
         && survey.near() > ENOUGH
@@ -58,14 +65,16 @@ pub fn choose(scene: &Scene, textures: &[Texture]) -> Choice {
         let anisotropy = variant == Variant::Anisotropic;
         effects.fade_in = Some(FadeIn { full_noise_lod: level as f32, anisotropy, authored: 0.5 });
         reasons.push(format!(
-            "fade_in, full noise from level {level}: {} of the fragments are magnified, where the fixed test is right; saves their grain, risks alphas below one half while it fades",
+            "fade_in, full noise from level {level}: {} of the fragments are magnified, where the \
+             fixed test is right; saves their grain, risks alphas below one half while it fades",
             percent(survey.near())
         ));
     }
     if survey.bleeding > HALO {
         effects.premultiplied = Some(Premultiplied {});
         reasons.push(format!(
-            "premultiplied: filtered colours are {} off those of opaque texels; costs a division a pixel, saves halos",
+            "premultiplied: filtered colours are {} off those of opaque texels; costs a division \
+             a pixel, saves halos",
             percent(survey.bleeding)
         ));
     }
@@ -79,15 +88,19 @@ pub fn choose(scene: &Scene, textures: &[Texture]) -> Choice {
         };
         effects.alpha_to_coverage = Some(AlphaToCoverage { samples: target.samples, pattern });
         reasons.push(format!(
-            "alpha_to_coverage, {pattern:?}: the target has {} samples a pixel, {} of the touched pixels have two layers or more; costs {price} and as many tests as samples, saves grain",
-            target.samples, percent(layered)
+            "alpha_to_coverage, {}: the target has {} samples a pixel, {} of the touched pixels \
+             have two layers or more; costs {price} and as many tests as samples, saves grain",
+            pattern.name(),
+            target.samples,
+            percent(layered)
         ));
     }
     if target.history.get() > 1 {
         effects.temporal = Some(Temporal { frames: target.history, order: Order::PhaseRotated });
         effects.average = Some(Average { frames: target.history });
         reasons.push(format!(
-            "temporal: the target averages {} frames; costs nothing but a mixture a pixel, saves grain, risks ghosts under motion",
+            "temporal: the target averages {} frames; costs nothing but a mixture a pixel, saves \
+             grain, risks ghosts under motion",
             target.history
         ));
     }

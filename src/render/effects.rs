@@ -285,6 +285,19 @@ pub enum Pattern {
     Independent,
 }
 
+impl Pattern {
+    /// The name by which a user asks for it.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Regular => "regular",
+            Self::Jittered => "jittered",
+            Self::Decorrelated => "decorrelated",
+            Self::Independent => "independent",
+        }
+    }
+}
+
 /// Noise that fades in.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -108,14 +108,14 @@ impl Stage {
             Self::Fixed(threshold) => format!("threshold: {threshold} for all"),
             Self::Stochastic => "threshold: drawn anew in every fragment and frame".to_owned(),
             Self::Hash(Model::Hashed(h), space) => format!(
-                "hash: {} listing, {} hash, {} pixels, {} coordinates",
+                "hash: {} listing, {} hash, noise of {} px, {} coordinates",
                 h.variant,
                 h.hash,
                 h.hash_scale,
                 space.name()
             ),
             Self::Hash(Model::Robust(r), space) => format!(
-                "hash: robust {}, {} hash, {} join, {} pixels, {} coordinates",
+                "hash: robust {}, {} hash, {} join, noise of {} px, {} coordinates",
                 r.variant,
                 r.hash,
                 r.join,
@@ -126,7 +126,7 @@ impl Stage {
                 format!("temporal: stratum of {frames} frames, {} order", order.name())
             }
             Self::Coverage(samples, pattern) => {
-                format!("coverage: {samples} samples a pixel, {pattern:?} strata")
+                format!("coverage: {samples} samples a pixel, {} strata", pattern.name())
             }
             Self::FadeIn(fade_in) => {
                 let scaled = if fade_in.anisotropy { ", scaled by anisotropy" } else { "" };
