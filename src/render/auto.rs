@@ -1,10 +1,9 @@
 //! Chooses effects from what it measures in a scene, and says why.
 
-use super::effects::{
-    AlphaToCoverage, Average, Effects, FadeIn, Fixed, Pattern, Premultiplied, RobustHash, Temporal,
-};
+use super::effects::Effects;
 use super::prepare::Scene;
 use super::survey::Survey;
+use super::tables::{AlphaToCoverage, Average, FadeIn, Fixed, Pattern, Premultiplied, RobustHash, Temporal};
 use super::texture::Texture;
 use crate::technique::order::Order;
 use crate::threshold::hash::HashKind;

@@ -4,12 +4,12 @@
 //! | module | holds |
 //! |---|---|
 //! | [`file`] | the TOML form of a scene, checked |
-//! | [`effects`] | one optional table an effect, and the list of all |
+//! | [`effects`], [`tables`] | one optional table an effect, and the list of all |
 //! | [`view`], [`surface`], [`texture`] | who looks, what is seen, what covers it |
 //! | [`procedural`], [`image_file`], [`gltf_file`] | where textures and meshes come from |
 //! | [`prepare`] | a file with all that it names |
 //! | [`mesh`], [`rasterise`], [`fragments`] | triangles to fragments |
-//! | [`plan`], [`cost`] | effects to stages, what they need, what they cost |
+//! | [`plan`], [`stage`], [`cost`] | effects to stages, what they need, what they cost |
 //! | [`survey`], [`auto`] | what is measured of a scene, and effects chosen from it |
 //! | [`adjust`], [`temporal`] | textures before the first frame, pictures after each |
 //! | [`run`], [`truth`] | a frame by a plan, and as it should be |
@@ -31,15 +31,19 @@ pub mod gltf_file;
 pub mod image_file;
 pub mod mesh;
 pub mod metrics;
+mod mistake;
 pub mod picture;
 pub mod plan;
+mod plan_shader;
 pub mod prepare;
 pub mod procedural;
 pub mod rasterise;
 pub mod run;
+pub mod stage;
 pub mod study;
 pub mod surface;
 pub mod survey;
+pub mod tables;
 pub mod temporal;
 pub mod texture;
 pub mod truth;

@@ -3,9 +3,9 @@
 //! Which pixels a triangle covers is decided on corners that are rounded to 1/256 of a pixel, as hardware does, so that
 //! triangles which share an edge share no pixel and leave none out. Attributes are those of the exact corners.
 
-use super::effects::Space;
 use super::fragments::{Fragments, Needs};
 use super::mesh::{Mesh, Triangle};
+use super::tables::Space;
 use crate::scene::Camera;
 use glam::{DVec2, DVec3, dvec2, dvec3, vec2};
 use rayon::prelude::*;

@@ -1,13 +1,14 @@
 //! Carries a plan out: one frame, tile by tile, stage by stage over the columns of a tile, and counts what it does.
 
 use super::cost::Cost;
-use super::effects::{FadeIn, Pattern};
 use super::fragments::Fragments;
 use super::picture::{LEAF, Picture, SKY};
-use super::plan::{Plan, Stage, hashes};
+use super::plan::Plan;
 use super::prepare::Scene;
 use super::rasterise::{Screen, TILE};
+use super::stage::{Stage, hashes};
 use super::study::Shot;
+use super::tables::{FadeIn, Pattern};
 use super::texture::{Access, Texture};
 use crate::technique::blend_towards::blend_towards;
 use crate::technique::independent::by_offset;

@@ -1,10 +1,10 @@
 //! What a scene asks for, measured on the fragments of its first frame.
 
-use super::effects::Space;
 use super::fragments::{Fragments, Needs};
 use super::prepare::Scene;
 use super::rasterise::{Screen, TILE};
 use super::study::Shot;
+use super::tables::Space;
 use super::texture::Texture;
 use super::view::Cause;
 use crate::threshold::fade_in::anisotropy;

@@ -1,7 +1,7 @@
 //! Frames mixed with those before, as temporal antialiasing mixes them. Pixels stay where they are: nothing is reprojected.
 
-use super::effects::History;
 use super::picture::Picture;
+use super::tables::History;
 use crate::technique::history;
 
 /// Returns the average after a frame, from that before it.

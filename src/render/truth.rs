@@ -1,12 +1,12 @@
 //! Ground truth: every fragment blended in the order of its distance, at many places of each pixel.
 
 use super::cost::Cost;
-use super::effects::Space;
 use super::fragments::{Fragments, Needs};
 use super::picture::{LEAF, Picture, SKY};
 use super::prepare::Scene;
 use super::rasterise::{Screen, TILE};
 use super::study::Shot;
+use super::tables::Space;
 use super::texture::Texture;
 use glam::DVec2;
 use rayon::prelude::*;

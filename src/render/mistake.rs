@@ -1,0 +1,57 @@
+//! What was likely meant: places in a text, and the known word that is nearest to a wrong one.
+
+/// Line and column, both from 1, of a byte.
+pub(super) fn place(text: &str, byte: usize) -> (usize, usize) {
+    let before = text.get(..byte).unwrap_or(text);
+    let line_start = before.rfind('\n').map_or(0, |at| at + 1);
+    (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
+}
+
+/// Rewrites "unknown field `a`, expected one of `b`, `c`" so that the likely one stands out.
+pub(super) fn suggest(message: &str) -> Option<String> {
+    let mut quoted = message.split('`').skip(1).step_by(2);
+    let wrong = quoted.next()?;
+    let known: Vec<&str> = quoted.collect();
+    let what = message.split('`').next()?.trim();
+    if !what.starts_with("unknown") {
+        return None;
+    }
+    let what = if what.ends_with("field") { "unknown key" } else { what };
+    let likely = nearest(wrong, &known).map_or_else(String::new, |near| format!(" Did you mean `{near}`?"));
+    let known = if known.is_empty() { "none".to_owned() } else { known.join(", ") };
+    Some(format!("{what} `{wrong}`.{likely} Known here: {known}"))
+}
+
+/// The known word with the fewest edits, if they are fewer than half of its letters.
+pub(super) fn nearest<'a>(wrong: &str, known: &[&'a str]) -> Option<&'a str> {
+    let (edits, near) = known.iter().map(|near| (edits(wrong, near), *near)).min()?;
+    (2 * edits <= near.chars().count().max(2)).then_some(near)
+}
+
+/// The number of letters to insert, delete or replace.
+fn edits(from: &str, to: &str) -> usize {
+    let to: Vec<char> = to.chars().collect();
+    let mut row: Vec<usize> = (0..=to.len()).collect();
+    for (i, a) in from.chars().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, &b) in to.iter().enumerate() {
+            let replaced = diagonal + usize::from(a != b);
+            diagonal = row[j + 1];
+            row[j + 1] = replaced.min(diagonal + 1).min(row[j] + 1);
+        }
+    }
+    row[to.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn edits_are_counted() {
+        assert_eq!(edits("hasht", "hashed"), 2);
+        assert_eq!(edits("", "abc"), 3);
+        assert_eq!(nearest("zzz", &["fixed", "hashed"]), None);
+    }
+}

@@ -1,0 +1,74 @@
+//! The threshold of a plan as shader text.
+
+use super::plan::Plan;
+use super::stage::Stage;
+use super::tables::{FadeIn, Pattern};
+use crate::shader::assemble::{self, InvalidOption, ShaderOptions, assemble};
+use crate::technique::order::Order;
+use crate::threshold::batch::Model;
+use crate::threshold::fixed::FIXED_THRESHOLD;
+use crate::threshold::two_scale::Variant;
+use core::num::NonZeroU32;
+
+impl Plan {
+    /// Returns the threshold of the plan as WGSL, made of the chunks of its stages only; `None` where no shader computes
+    /// one, as for independent draws at every sample.
+    ///
+    /// # Errors
+    ///
+    /// [`InvalidOption`] for numbers that cannot be written as text.
+    pub fn shader(&self) -> Result<Option<String>, InvalidOption> {
+        let mut options =
+            ShaderOptions { source: assemble::Source::Fixed, ..ShaderOptions::listing(Variant::Isotropic) };
+        let short =
+            |n: &NonZeroU32| core::num::NonZeroU16::try_from(*n).unwrap_or(core::num::NonZeroU16::MAX);
+        for stage in &self.stages {
+            match stage {
+                Stage::Fixed(threshold) if !is_traditional(*threshold) => return Ok(None),
+                Stage::Stochastic => options.source = assemble::Source::Stochastic,
+                Stage::Hash(Model::Hashed(hashed), _) => {
+                    options.source = assemble::Source::Listing(hashed.form);
+                    (options.variant, options.hash) = (hashed.variant, hashed.hash);
+                    options.hash_scale = Some(hashed.hash_scale as f32);
+                }
+                Stage::Hash(Model::Robust(robust), _) => {
+                    options.source = assemble::Source::Robust(robust.join);
+                    (options.variant, options.hash) = (robust.variant, robust.hash);
+                    options.hash_scale = Some(robust.hash_scale as f32);
+                }
+                Stage::Stratify(_, order) if !matches!(order, Order::Ascending | Order::Alternating) => {
+                    return Ok(None);
+                }
+                Stage::Stratify(frames, order) => {
+                    options.stratify = Some(assemble::Stratify {
+                        frames: short(frames),
+                        alternating: *order == Order::Alternating,
+                    });
+                }
+                Stage::Coverage(_, Pattern::Independent) => return Ok(None),
+                Stage::Coverage(samples, Pattern::Regular) => {
+                    options.source = assemble::Source::Regular(short(samples));
+                }
+                Stage::Coverage(samples, pattern) => {
+                    options.coverage = Some(assemble::Coverage {
+                        samples: short(samples),
+                        decorrelated: *pattern == Pattern::Decorrelated,
+                    });
+                }
+                Stage::FadeIn(fade_in) if !is_traditional(fade_in.authored) => return Ok(None),
+                Stage::FadeIn(fade_in) => {
+                    let FadeIn { full_noise_lod, anisotropy, .. } = *fade_in;
+                    options.fade_in = Some(assemble::FadeIn { full_noise_lod, anisotropy });
+                }
+                Stage::Independent(_) | Stage::LevelThreshold => return Ok(None),
+                _ => {}
+            }
+        }
+        assemble(&options).map(Some)
+    }
+}
+
+/// Whether shader text, which knows the traditional threshold only, can have this one.
+fn is_traditional(threshold: f32) -> bool {
+    (f64::from(threshold) - FIXED_THRESHOLD).abs() < f64::EPSILON
+}

@@ -1,0 +1,303 @@
+//! The tables of effects as a scene file has them, one struct each.
+
+use crate::technique::order::Order;
+use crate::threshold::cdf::CdfForm;
+use crate::threshold::hash::HashKind;
+use crate::threshold::robust::Join;
+use crate::threshold::two_scale::Variant;
+use core::num::NonZeroU32;
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer};
+
+/// Tests at several places of each pixel.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Supersampling {
+    /// Places along each side of a pixel.
+    pub samples: NonZeroU32,
+}
+
+/// Colours multiplied by alpha.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Premultiplied {}
+
+/// Alpha from the finest level.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FinestLevel {}
+
+/// Alpha from no coarser level.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LimitedLevel {
+    /// The coarsest level that is read.
+    pub level: f32,
+}
+
+/// A threshold a level.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LevelThreshold {}
+
+/// Alphas scaled by level.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ScaledAlpha {}
+
+/// Alphas scaled by texel.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ScaledTexels {
+    /// How far around a texel the share is taken, in texels of its level.
+    #[serde(default)]
+    pub radius: usize,
+}
+
+/// A hash of its own for each frame.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Independent {
+    /// Number of frames that belong together.
+    pub frames: NonZeroU32,
+}
+
+/// A camera that moves within a pixel.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Jitter {
+    /// Number of frames that belong together.
+    pub frames: NonZeroU32,
+}
+
+/// The alpha test, and then what it left out, blended.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TestThenBlend {}
+
+/// An exponential average of frames.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct History {
+    /// Weight of the newest frame, in (0, 1].
+    pub weight: f32,
+    /// Whether the average is brought into the range of the newest frame around each pixel.
+    #[serde(default)]
+    pub clamp: bool,
+}
+
+/// One threshold for all.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Fixed {
+    /// That threshold, in [0, 1].
+    #[serde(default = "half")]
+    pub threshold: f32,
+}
+
+/// A fresh threshold every time.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Stochastic {}
+
+/// A listing to the letter, or one of its ablations.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Hashed {
+    /// How scales are chosen from derivatives.
+    #[serde(default = "isotropic", deserialize_with = "by_name")]
+    pub variant: Variant,
+    /// The hash of a cell.
+    #[serde(default = "sine", deserialize_with = "by_name")]
+    pub hash: HashKind,
+    /// Size of the noise, in pixels.
+    #[serde(default = "one")]
+    pub hash_scale: f64,
+    /// Eq. 2 to the letter, or without a division by zero.
+    #[serde(default = "literal", deserialize_with = "by_name")]
+    pub form: CdfForm,
+}
+
+/// The threshold with every repair.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RobustHash {
+    /// How scales are chosen from derivatives.
+    #[serde(default = "isotropic", deserialize_with = "by_name")]
+    pub variant: Variant,
+    /// The hash of a cell.
+    #[serde(default = "murmur", deserialize_with = "by_name")]
+    pub hash: HashKind,
+    /// Size of the noise, in pixels.
+    #[serde(default = "one")]
+    pub hash_scale: f64,
+    /// How the hashes of two octaves become one value; by default the copula with one scale an axis and the paper's
+    /// interpolation with one for all.
+    #[serde(default, deserialize_with = "by_name_if_any")]
+    pub join: Option<Join>,
+}
+
+/// What is hashed.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Coordinates {
+    /// The coordinates.
+    pub space: Space,
+}
+
+/// Coordinates of a fragment that may be hashed (§5.2, §5.3).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Space {
+    /// Those of the whole object, before its deformation: what the paper chose.
+    #[default]
+    Object,
+    /// Those of the object after its deformation.
+    Deformed,
+    /// Those of the part, as of one leaf: what the paper warns of.
+    Part,
+    /// Those of the world.
+    World,
+    /// Texture coordinates, with 0 for the third.
+    Texture,
+    /// Those of the eye: x to the right, y down, z along the line of sight.
+    Eye,
+    /// Pixels, with 0 for the third.
+    Screen,
+    /// Normalised device coordinates, [-1, 1] across the image, with 0 for the third.
+    Device,
+}
+
+/// Strata of frames.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Temporal {
+    /// Number of frames that belong together.
+    pub frames: NonZeroU32,
+    /// Their order.
+    #[serde(default = "alternating", deserialize_with = "order")]
+    pub order: Order,
+}
+
+/// Several tests in a pixel.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct AlphaToCoverage {
+    /// Number of samples in a pixel, at most 64.
+    pub samples: NonZeroU32,
+    /// Which thresholds they have.
+    pub pattern: Pattern,
+}
+
+/// The thresholds of the samples of a pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Pattern {
+    /// The fixed dither of Eq. 7; needs no hash.
+    Regular,
+    /// One jitter for all strata, Eq. 8.
+    Jittered,
+    /// The same with strata in an order that each layer has for itself, Eq. 9.
+    Decorrelated,
+    /// Independent draws, as stochastic transparency has them (§10).
+    Independent,
+}
+
+impl Pattern {
+    /// The name by which a user asks for it.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Regular => "regular",
+            Self::Jittered => "jittered",
+            Self::Decorrelated => "decorrelated",
+            Self::Independent => "independent",
+        }
+    }
+}
+
+/// Noise that fades in.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FadeIn {
+    /// Level of detail from which on all is noise, above 0.
+    #[serde(default = "six")]
+    pub full_noise_lod: f32,
+    /// Whether the level is multiplied by the anisotropy of the texture access (§7.1.1).
+    #[serde(default)]
+    pub anisotropy: bool,
+    /// The threshold without noise, in (0, 1]: one half in Eq. 4, or what an artist set.
+    #[serde(default = "half")]
+    pub authored: f32,
+}
+
+/// The mean of frames.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Average {
+    /// Number of frames that are averaged.
+    pub frames: NonZeroU32,
+}
+
+fn alternating() -> Order {
+    Order::Alternating
+}
+
+fn order<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Order, D::Error> {
+    const NAMES: [&str; 7] = [
+        Order::ALL[0].name(),
+        Order::ALL[1].name(),
+        Order::ALL[2].name(),
+        Order::ALL[3].name(),
+        Order::ALL[4].name(),
+        Order::ALL[5].name(),
+        Order::ALL[6].name(),
+    ];
+    let name = String::deserialize(deserializer)?;
+    let found = Order::ALL.into_iter().find(|order| order.name() == name);
+    found.ok_or_else(|| D::Error::unknown_variant(&name, &NAMES))
+}
+
+fn half() -> f32 {
+    0.5
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+fn six() -> f32 {
+    6.0
+}
+
+fn isotropic() -> Variant {
+    Variant::Isotropic
+}
+
+fn sine() -> HashKind {
+    HashKind::Sine
+}
+
+fn murmur() -> HashKind {
+    HashKind::Mm4
+}
+
+fn literal() -> CdfForm {
+    CdfForm::Literal
+}
+
+fn by_name<'de, D, T>(deserializer: D) -> Result<T, D::Error>
+where
+    D: Deserializer<'de>,
+    T: core::str::FromStr<Err: core::fmt::Display>,
+{
+    String::deserialize(deserializer)?.parse().map_err(D::Error::custom)
+}
+
+fn by_name_if_any<'de, D, T>(deserializer: D) -> Result<Option<T>, D::Error>
+where
+    D: Deserializer<'de>,
+    T: core::str::FromStr<Err: core::fmt::Display>,
+{
+    by_name(deserializer).map(Some)
+}
