@@ -44,7 +44,9 @@ pub fn textures(scene: &Scene, needs: TextureNeeds) -> Vec<Texture> {
 fn scale(level: remedies::Level<'_>, base: remedies::Level<'_>, share: f64, scaling: Scaling) -> Vec<f32> {
     match scaling {
         // A map whose sides are no powers of two has no whole number of base texels under each texel.
-        Scaling::Texels(radius) if base.width % level.width == 0 && base.height % level.height == 0 => {
+        Scaling::Texels(radius)
+            if base.width.is_multiple_of(level.width) && base.height.is_multiple_of(level.height) =>
+        {
             scaled_by_texel(level, base, REFERENCE, radius)
         }
         _ => scaled(level, alpha_scale(level, share, REFERENCE)),

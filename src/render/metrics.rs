@@ -209,7 +209,7 @@ mod tests {
     }
 
     fn stripes(period: usize) -> Vec<f32> {
-        (0..256).map(|at| f32::from(u8::from(at % 16 / period % 2 == 0))).collect()
+        (0..256).map(|at| f32::from(u8::from((at % 16 / period).is_multiple_of(2)))).collect()
     }
 
     const SHOT: Shot = Shot { cause: Cause::All, distance: 1.0 };

@@ -263,7 +263,6 @@ impl Plan {
     }
 
     /// Returns the effects that do not run, each with the reason.
-    #[must_use]
     pub fn skipped<'a>(
         &self,
         effects: &'a Effects,

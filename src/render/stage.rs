@@ -62,6 +62,8 @@ impl Stage {
             Self::Rasterise(_) | Self::Downsample(_) => Some("supersampling"),
             Self::SampleAlpha(Some(level)) if *level <= 0.0 => Some("finest_level"),
             Self::SampleAlpha(Some(_)) => Some("limited_level"),
+            // The plain alpha test is what a plan has without any table.
+            Self::Fixed(0.5) => None,
             Self::Fixed(_) => Some("fixed"),
             Self::Stochastic => Some("stochastic"),
             Self::Hash(Model::Hashed(_), _) => Some("hashed"),

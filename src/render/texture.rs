@@ -96,8 +96,9 @@ impl Texture {
         if self.filter != Filter::Anisotropic {
             return Access { texcoord, lod: lod(long), probes: 1, step: Vec2::ZERO };
         }
-        // A quotient of zeros is no anisotropy; `max` drops the NaN.
-        let probes = (long / short).ceil().max(1.0).min(MOST_PROBES);
+        let ratio = long / short;
+        // A quotient of zeros is no anisotropy.
+        let probes = if ratio.is_nan() { 1.0 } else { ratio.ceil().clamp(1.0, MOST_PROBES) };
         Access { texcoord, lod: lod(long / probes), probes: probes as u32, step: axis / probes }
     }
 

@@ -11,6 +11,9 @@ use super::texture::Texture;
 use glam::DVec2;
 use rayon::prelude::*;
 
+/// Colour and coverage of a pixel.
+type Seen = ([f32; 3], f32);
+
 /// Draws a frame of a shot at `side` x `side` places a pixel; `textures` hold colours multiplied by alpha.
 ///
 /// Each place has derivatives of its own, so that alpha comes from as fine a level as its distance to the next asks for.
@@ -19,7 +22,7 @@ pub fn frame(scene: &Scene, textures: &[Texture], shot: &Shot, index: u32, side:
     let camera = shot.camera(scene, index, side);
     let needs = Needs { texture_derivatives: true, ..Needs::default() };
     let screen = Screen::new(&scene.mesh, &camera, f64::from(index), DVec2::ZERO, Space::Object, needs);
-    let tiles: Vec<(Vec<([f32; 3], f32)>, Cost)> = (0..screen.tiles())
+    let tiles: Vec<(Vec<Seen>, Cost)> = (0..screen.tiles())
         .into_par_iter()
         .map_init(Fragments::default, |fragments, tile| {
             screen.fragments(tile, fragments);
@@ -41,12 +44,7 @@ pub fn frame(scene: &Scene, textures: &[Texture], shot: &Shot, index: u32, side:
     (picture.downsample(side), cost)
 }
 
-fn blend(
-    scene: &Scene,
-    textures: &[Texture],
-    screen: &Screen,
-    fragments: &Fragments,
-) -> (Vec<([f32; 3], f32)>, Cost) {
+fn blend(scene: &Scene, textures: &[Texture], screen: &Screen, fragments: &Fragments) -> (Vec<Seen>, Cost) {
     let mut order: Vec<usize> = (0..fragments.len()).collect();
     order.sort_by(|&a, &b| {
         let key = |at: usize| (fragments.pixel[at], fragments.depth[at]);
