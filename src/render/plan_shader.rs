@@ -4,7 +4,6 @@ use super::plan::Plan;
 use super::stage::Stage;
 use super::tables::{FadeIn, Pattern};
 use crate::shader::assemble::{self, InvalidOption, ShaderOptions, assemble};
-use crate::technique::order::Order;
 use crate::threshold::batch::Model;
 use crate::threshold::fixed::FIXED_THRESHOLD;
 use crate::threshold::two_scale::Variant;
@@ -36,14 +35,8 @@ impl Plan {
                     (options.variant, options.hash) = (robust.variant, robust.hash);
                     options.hash_scale = Some(robust.hash_scale as f32);
                 }
-                Stage::Stratify(_, order) if !matches!(order, Order::Ascending | Order::Alternating) => {
-                    return Ok(None);
-                }
                 Stage::Stratify(frames, order) => {
-                    options.stratify = Some(assemble::Stratify {
-                        frames: short(frames),
-                        alternating: *order == Order::Alternating,
-                    });
+                    options.stratify = Some(assemble::Stratify { frames: short(frames), order: *order });
                 }
                 Stage::Coverage(_, Pattern::Independent) => return Ok(None),
                 Stage::Coverage(samples, Pattern::Regular) => {
