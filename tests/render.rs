@@ -129,8 +129,8 @@ fn an_absent_table_leaves_no_trace() {
         for known in ALL.iter().filter(|known| (known.is_in)(&set)) {
             let mut rest = set.clone();
             (known.remove)(&mut rest);
-            // Something else needs it, or it is what a scene gets that calls for nothing.
-            if effects::check(&rest).is_err() || known.name == "fixed" {
+            if effects::check(&rest).is_err() {
+                // Something else needs it.
                 continue;
             }
             removed += 1;
@@ -147,7 +147,7 @@ fn an_absent_table_leaves_no_trace() {
                 assert!(chunks(&without) <= chunks(&with), "{}: {}", file.name, known.name);
             }
         }
-        assert_eq!(ALL.iter().map(|known| traces(&plan(&Effects::default()), known.name)).sum::<usize>(), 1);
+        assert_eq!(ALL.iter().map(|known| traces(&plan(&Effects::default()), known.name)).sum::<usize>(), 0);
     }
     assert!(removed > 30, "{removed}");
 }
@@ -175,6 +175,27 @@ fn an_absent_table_of_the_scene_is_not_measured() {
             assert!(!left.iter().any(|name| name.contains(gone)), "{gone}: {left:?}");
         }
     }
+}
+
+#[test]
+fn the_truth_moves_as_the_takes_do() {
+    // A still error and a moving one: a truth that lags behind would double the second.
+    let file = SceneFile { frames: 8.try_into().expect("not zero"), ..read("samples-converge") };
+    let motion = read("vanishing-foliage").camera.motion;
+    let Takes::Sets(sets) = &file.effects else { panic!("takes") };
+    let file = SceneFile {
+        truth: read("vanishing-foliage").truth,
+        expect: Vec::new(),
+        effects: Takes::Sets(sets[3..4].to_vec()),
+        ..file
+    };
+    let moving = SceneFile {
+        camera: hashed_alpha::render::view::View { motion, ..file.camera.clone() },
+        ..file.clone()
+    };
+    let error = |file| drawn(&ready(file)).takes[0].metrics["rmse_coverage"];
+    let (still, moving) = (error(file), error(moving));
+    assert!((moving / still - 1.0).abs() < 0.1, "{still} {moving}");
 }
 
 #[test]
@@ -232,7 +253,10 @@ fn a_threshold_takes_as_many_hashes_as_its_plan_says() {
             let counting =
                 Robust { variant, hash: Counting(HashKind::Mm4, &count), hash_scale, join, repairs };
             counting.threshold(&footprint).expect("a finite footprint");
-            assert_eq!(count.load(Ordering::Relaxed), hashes(&Model::Robust(preset)), "{variant} {join}");
+            // Beside what it chooses from, the dithered join hashes both corners for the trace.
+            let traced = if join == Join::Dithered { 2 } else { 0 };
+            let counted = count.load(Ordering::Relaxed) - traced;
+            assert_eq!(counted, hashes(&Model::Robust(preset)), "{variant} {join}");
         }
     }
 }
@@ -247,14 +271,13 @@ fn one_thread_or_two_draw_the_same() {
         };
         let (one, two) = (with(1), with(2));
         for (one, two) in one.takes.iter().zip(&two.takes) {
-            assert_eq!(one.sequence, two.sequence);
-            assert_eq!((&one.metrics, one.cost, &one.mean), (&two.metrics, two.cost, &two.mean));
+            assert!(one.sequence == two.sequence && one.mean == two.mean, "{name}");
+            assert_eq!((&one.metrics, one.cost), (&two.metrics, two.cost));
         }
-        assert_eq!(one.sheet(None), two.sheet(None));
+        assert!(one.sheet(None) == two.sheet(None), "{name}");
         // Another seed draws something else.
         let other = ready(SceneFile { seed: 1, ..scene.file.clone() });
-        let other = drawn(&other);
-        assert!(other.takes.iter().zip(&one.takes).any(|(other, one)| other.mean != one.mean), "{name}");
+        assert!(drawn(&other).sheet(None) != one.sheet(None), "{name}");
     }
 }
 
@@ -283,6 +306,6 @@ fn a_scene_that_calls_for_nothing_gets_the_plain_alpha_test() {
         );
         drawn(&ready(file::read(&text, "card.toml").expect("sound"))).takes[0].plan.clone()
     };
-    assert_eq!(traces(&near(0.5), "fixed"), 1);
+    assert_eq!(near(0.5).stages, plan(&Effects::default()).stages);
     assert_eq!(traces(&near(40.0), "robust"), 1);
 }

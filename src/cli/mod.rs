@@ -3,7 +3,7 @@
 //! | module | holds |
 //! |---|---|
 //! | [`args`] | verbs, options and their help |
-//! | [`check`], [`compare`], [`cost`], [`eval`], [`explain`], [`render`], [`scenes`], [`shader`] | one job a verb |
+//! | [`check`], [`compare`], [`eval`], [`explain`], [`render`], [`scenes`], [`shader`] | one job a verb |
 //! | [`scene_files`] | what a typed scene means |
 //! | [`subjects`] | what a typed subject means, and where it runs |
 //! | [`rows`] | footprints as comma-separated text, read and written |

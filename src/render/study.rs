@@ -33,8 +33,15 @@ impl Shot {
     /// Returns the camera of a frame, with `side` x `side` pixels for each pixel of the scene.
     #[must_use]
     pub fn camera(&self, scene: &Scene, frame: u32, side: u32) -> Camera {
-        let resolution = scene.file.resolution.map(|pixels| pixels * side);
-        scene.file.camera.camera(f64::from(frame), self.cause, self.distance, resolution)
+        let camera =
+            scene.file.camera.camera(f64::from(frame), self.cause, self.distance, scene.file.resolution);
+        // Motion is in pixels of the scene, however many places each of them has.
+        Camera {
+            direction_dx: camera.direction_dx / f64::from(side),
+            direction_dy: camera.direction_dy / f64::from(side),
+            resolution: camera.resolution.map(|pixels| pixels * side),
+            ..camera
+        }
     }
 }
 

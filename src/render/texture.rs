@@ -96,9 +96,9 @@ impl Texture {
         if self.filter != Filter::Anisotropic {
             return Access { texcoord, lod: lod(long), probes: 1, step: Vec2::ZERO };
         }
+        let ratio = long / short;
         // A quotient of zeros is no anisotropy.
-        let ratio = if long > short { long / short } else { 1.0 };
-        let probes = ratio.ceil().min(MOST_PROBES);
+        let probes = if ratio.is_nan() { 1.0 } else { ratio.ceil().clamp(1.0, MOST_PROBES) };
         Access { texcoord, lod: lod(long / probes), probes: probes as u32, step: axis / probes }
     }
 

@@ -11,8 +11,8 @@ use super::texture::Texture;
 use glam::DVec2;
 use rayon::prelude::*;
 
-/// Colour and coverage of the places of a tile, row by row.
-type Blended = Vec<([f32; 3], f32)>;
+/// Colour and coverage of a pixel.
+type Seen = ([f32; 3], f32);
 
 /// Draws a frame of a shot at `side` x `side` places a pixel; `textures` hold colours multiplied by alpha.
 ///
@@ -22,7 +22,7 @@ pub fn frame(scene: &Scene, textures: &[Texture], shot: &Shot, index: u32, side:
     let camera = shot.camera(scene, index, side);
     let needs = Needs { texture_derivatives: true, ..Needs::default() };
     let screen = Screen::new(&scene.mesh, &camera, f64::from(index), DVec2::ZERO, Space::Object, needs);
-    let tiles: Vec<(Blended, Cost)> = (0..screen.tiles())
+    let tiles: Vec<(Vec<Seen>, Cost)> = (0..screen.tiles())
         .into_par_iter()
         .map_init(Fragments::default, |fragments, tile| {
             screen.fragments(tile, fragments);
@@ -44,7 +44,7 @@ pub fn frame(scene: &Scene, textures: &[Texture], shot: &Shot, index: u32, side:
     (picture.downsample(side), cost)
 }
 
-fn blend(scene: &Scene, textures: &[Texture], screen: &Screen, fragments: &Fragments) -> (Blended, Cost) {
+fn blend(scene: &Scene, textures: &[Texture], screen: &Screen, fragments: &Fragments) -> (Vec<Seen>, Cost) {
     let mut order: Vec<usize> = (0..fragments.len()).collect();
     order.sort_by(|&a, &b| {
         let key = |at: usize| (fragments.pixel[at], fragments.depth[at]);
