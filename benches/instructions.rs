@@ -4,6 +4,9 @@
 //! happens within `measured`, and compares with `benches/instructions.txt`. Valgrind has no AVX-512. PERCENT evaluates so
 //! many more values: a change that the comparison must see.
 
+// Its results are what a reader of the terminal wants.
+#![allow(clippy::print_stdout)]
+
 use hashed_alpha::threshold::batch::{Batch, Bins, ColumnBuffer, Isa, Lane, Model, Tier};
 use hashed_alpha::threshold::cdf::CdfForm;
 use hashed_alpha::threshold::footprint::Footprint;

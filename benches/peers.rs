@@ -3,6 +3,9 @@
 //! The same footprints, in turns; a compiler that is missing is skipped with a message. A peer is as exact as a tier of ours
 //! where as many of its thresholds have the bits of the reference.
 
+// Its results are what a reader of the terminal wants.
+#![allow(clippy::print_stdout)]
+
 use hashed_alpha::cost::clock::{Contender, race};
 use hashed_alpha::cost::pool::{Pool, SLICE, WIDE};
 use hashed_alpha::threshold::batch::{Batch, Tier};

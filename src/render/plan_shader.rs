@@ -30,6 +30,7 @@ impl Plan {
                     (options.variant, options.hash) = (hashed.variant, hashed.hash);
                     options.hash_scale = Some(hashed.hash_scale as f32);
                 }
+                Stage::Hash(Model::BeforeCdf(_), _) => return Ok(None),
                 Stage::Hash(Model::Robust(robust), _) => {
                     options.source = assemble::Source::Robust(robust.join);
                     (options.variant, options.hash) = (robust.variant, robust.hash);

@@ -231,6 +231,11 @@ impl Draw<'_> {
                     HashedAlpha { variant, hash: by_offset(hash, frame), hash_scale, form }
                         .threshold(&footprint)
                 }
+                Model::BeforeCdf(HashedAlpha { variant, hash, hash_scale, form }) => {
+                    HashedAlpha { variant, hash: by_offset(hash, frame), hash_scale, form }
+                        .trace(&footprint)
+                        .interpolated
+                }
                 Model::Robust(Robust { variant, hash, hash_scale, join, repairs }) => {
                     let robust = Robust { variant, hash: by_offset(hash, frame), hash_scale, join, repairs };
                     robust.threshold(&footprint).unwrap_or(f32::NAN)

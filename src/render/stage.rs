@@ -66,7 +66,7 @@ impl Stage {
             Self::Fixed(0.5) => None,
             Self::Fixed(_) => Some("fixed"),
             Self::Stochastic => Some("stochastic"),
-            Self::Hash(Model::Hashed(_), _) => Some("hashed"),
+            Self::Hash(Model::Hashed(_) | Model::BeforeCdf(_), _) => Some("hashed"),
             Self::Hash(Model::Robust(_), _) => Some("robust"),
             Self::Stratify(..) => Some("temporal"),
             Self::Coverage(..) => Some("alpha_to_coverage"),
@@ -94,7 +94,7 @@ impl Stage {
             Self::SampleAlpha(Some(level)) => format!("sample alpha: no coarser than level {level}"),
             Self::Fixed(threshold) => format!("threshold: {threshold} for all"),
             Self::Stochastic => "threshold: drawn anew in every fragment and frame".to_owned(),
-            Self::Hash(Model::Hashed(h), space) => format!(
+            Self::Hash(Model::Hashed(h) | Model::BeforeCdf(h), space) => format!(
                 "hash: {} listing, {} hash, noise of {} px, {} coordinates",
                 h.variant,
                 h.hash,
@@ -165,7 +165,7 @@ impl Space {
 pub fn hashes(model: &Model) -> u64 {
     let anisotropic = |variant: Variant| variant == Variant::Anisotropic;
     match model {
-        Model::Hashed(hashed) => {
+        Model::Hashed(hashed) | Model::BeforeCdf(hashed) => {
             if hashed.variant == Variant::Single {
                 1
             } else {
