@@ -619,3 +619,53 @@ fn a_scene_of_the_gallery_is_a_file_to_start_from() {
     }
     assert_eq!(run(&["explain", "no-such-scene"], "").status.code(), Some(2));
 }
+
+#[test]
+fn cost_measures_every_tier_and_draws_the_fronts() {
+    const KEYS: [&str; 15] = [
+        "name",
+        "variant",
+        "hash",
+        "join",
+        "precision",
+        "tier",
+        "isa",
+        "threads",
+        "ns_min",
+        "ns_median",
+        "ratio",
+        "bits_equal",
+        "error",
+        "ks",
+        "flips",
+    ];
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().to_str().unwrap();
+    let lines = succeed(&["cost", "--quick", "--json", "--out", out], "");
+    for line in lines.lines() {
+        // A key follows a brace or a comma, and no value holds `":`.
+        let keys: Vec<_> =
+            line.split("\":").filter_map(|part| part.rsplit_once('"')).map(|part| part.1).collect();
+        assert_eq!(keys, KEYS, "{line}");
+    }
+    for tier in ["wgsl-minimum", "fast", "two-ulp", "std", "bit-exact", "f64", "double-double"] {
+        assert!(lines.contains(&format!("\"tier\":\"{tier}\"")), "{tier}");
+    }
+    let table = std::fs::read_to_string(folder.path().join("cost.csv")).unwrap();
+    assert_eq!(table.lines().count(), lines.lines().count() + 1);
+    for picture in ["sine", "reproducible", "real", "uniform", "stable"] {
+        let svg = std::fs::read_to_string(folder.path().join(format!("cost-{picture}.svg"))).unwrap();
+        assert!(svg.contains("grey: beaten"), "{picture}");
+    }
+}
+
+#[test]
+fn cost_lists_effects_and_sizes() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().to_str().unwrap();
+    let effects = succeed(&["cost", "--effects", "--quick", "--out", out], "");
+    assert!(effects.contains("hashed, fade-in") && effects.contains("1.41 to 4.53"), "{effects}");
+    let sizes = succeed(&["cost", "--sizes", "--samples", "20000", "--quick", "--out", out], "");
+    assert_eq!(sizes.lines().count(), 3, "{sizes}");
+    assert!(folder.path().join("cost-sizes.svg").exists() && folder.path().join("cost-effects.csv").exists());
+}

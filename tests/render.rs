@@ -137,7 +137,13 @@ fn an_absent_table_leaves_no_trace() {
             let without = plan(&rest);
             assert_eq!(traces(&without, known.name), 0, "{}: {}", file.name, known.name);
             let names = |plan: &Plan| plan.needs.names();
-            assert!(names(&without).iter().all(|need| names(&whole).contains(need)), "{}", known.name);
+            // Who reads the finest level alone needs no derivatives to choose one.
+            let spares = known.name == "finest_level";
+            assert!(
+                names(&without).iter().all(|need| spares || names(&whole).contains(need)),
+                "{}",
+                known.name
+            );
             let costs = |plan: &Plan| plan.cost_of_frame(1000, 8000, 100).quantities();
             let cheaper = costs(&without).into_iter().zip(costs(&whole)).all(|(less, more)| less.1 <= more.1);
             assert!(cheaper, "{}: {}", file.name, known.name);
