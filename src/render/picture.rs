@@ -1,8 +1,8 @@
 //! Pictures: colours and coverage of an image, and what is made of several.
 
 use super::file::Inset;
-use image::{ImageFormat, Rgb, RgbImage};
-use std::io::Cursor;
+use image::codecs::png::{CompressionType, FilterType, PngEncoder};
+use image::{Rgb, RgbImage};
 
 /// An image with, at each pixel, a colour and the share of it that surfaces cover.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -140,9 +140,13 @@ pub fn sheet(rows: &[Vec<RgbImage>]) -> RgbImage {
 ///
 /// What the encoder says, as of an image without pixels.
 pub fn png(image: &RgbImage) -> Result<Vec<u8>, image::ImageError> {
-    let mut bytes = Cursor::new(Vec::new());
-    image.write_to(&mut bytes, ImageFormat::Png)?;
-    Ok(bytes.into_inner())
+    let mut bytes = Vec::new();
+    image.write_with_encoder(PngEncoder::new_with_quality(
+        &mut bytes,
+        CompressionType::Best,
+        FilterType::NoFilter,
+    ))?;
+    Ok(bytes)
 }
 
 /// Encodes images of one size as an animated PNG of so many images a second that repeats for ever.
