@@ -2,7 +2,7 @@
 //!
 //! | module | answers |
 //! |---|---|
-//! | [`ladder`] | what does each digit of a sine, a hash, a threshold cost? |
+//! | [`ladder`](mod@ladder) | what does each digit of a sine, a hash, a threshold cost? |
 //! | [`law`] | how uniform is a threshold, and how often does it change what is seen? |
 //! | [`effects`] | what does each effect of the paper add? |
 //! | [`sizes`] | do time and memory grow with the number of samples? |

@@ -3,7 +3,7 @@
 //!
 //! | module | holds |
 //! |---|---|
-//! | [`file`] | the TOML form of a scene, checked |
+//! | [`file`](mod@file) | the TOML form of a scene, checked |
 //! | [`effects`], [`tables`] | one optional table an effect, and the list of all |
 //! | [`view`], [`surface`], [`texture`] | who looks, what is seen, what covers it |
 //! | [`procedural`], [`image_file`], [`gltf_file`] | where textures and meshes come from |

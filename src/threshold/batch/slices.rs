@@ -5,7 +5,7 @@ use super::isa::{Isa, Job};
 use super::lane::Kernel;
 use super::{BLOCK, Block, Tier};
 use crate::threshold::hash::HashKind;
-use crate::threshold::real::{SIN_F32_DOMAIN, exp2_f32, log2_everywhere, sin_f32, sin_in_domain};
+use crate::threshold::real::{SIN_F32_DOMAIN, log2_everywhere, sin_f32, sin_in_domain};
 
 impl Isa {
     /// Writes the sine of every element of `x` (radians) to `out`: bit for bit what
@@ -179,8 +179,9 @@ fn is_within(x: f32) -> bool {
     x.abs() <= SIN_F32_DOMAIN
 }
 
-/// Two to the power of a block, bit for bit what [`exp2_f32`] gives: of octaves, which are whole, by their exponent, of
-/// anything else one by one.
+/// Two to the power of a block, bit for bit what [`exp2_f32`](crate::threshold::real::exp2_f32) gives: of octaves, which are
+/// whole, by their exponent, of anything else one by one. The interpreter of shaders alone calls it.
+#[cfg(feature = "shader")]
 #[inline(always)]
 pub(crate) fn exp2_block(x: &Block<f32>, out: &mut Block<f32>) {
     let mut all_octaves = true;
@@ -191,13 +192,14 @@ pub(crate) fn exp2_block(x: &Block<f32>, out: &mut Block<f32>) {
     if !all_octaves {
         for i in 0..BLOCK {
             if !is_octave(x[i]) {
-                out[i] = exp2_f32(x[i]);
+                out[i] = crate::threshold::real::exp2_f32(x[i]);
             }
         }
     }
 }
 
 /// Returns whether two to the power of `x` is a normal number with nothing but an exponent; false for NaN.
+#[cfg(feature = "shader")]
 #[inline(always)]
 fn is_octave(x: f32) -> bool {
     x.abs() <= 126.0 && x.floor() == x
