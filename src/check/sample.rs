@@ -10,7 +10,7 @@ use crate::stats::seed::uniform01;
 use crate::threshold::footprint::Footprint;
 use glam::{DVec2, DVec3, dvec2, dvec3};
 use rand::rngs::Xoshiro256PlusPlus;
-use std::collections::HashSet;
+use rustc_hash::FxHashSet;
 
 /// Draws a place for the object: how far its points are moved from where the scene has them, in object units.
 pub fn placement(rng: &mut Xoshiro256PlusPlus) -> DVec3 {
@@ -97,7 +97,7 @@ pub fn placed(fragment: &Fragment, by: DVec3, precision: Precision) -> Fragment 
 
 /// The cells that earlier samples have used.
 #[derive(Debug, Default)]
-pub struct UsedCells(HashSet<[i64; 3]>);
+pub struct UsedCells(FxHashSet<[i64; 3]>);
 
 impl UsedCells {
     /// Claims the cells of a group of fragments or footprints that belong together; returns false, and claims none, if an
@@ -171,7 +171,7 @@ mod tests {
         let mut rng = seed::rng("sample.independent", 0);
         let samples = independent(&subject, &general_scenes(), 5000, 1000, &mut rng);
         assert_eq!(samples.len(), 5000);
-        let cells: HashSet<_> = samples
+        let cells: FxHashSet<_> = samples
             .iter()
             .map(|s| subject.nominal(&s.footprint).coarse_cell.to_array().map(|c| c as i64))
             .collect();

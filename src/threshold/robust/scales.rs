@@ -3,7 +3,7 @@
 use super::repairs::{Repair, Repairs};
 use crate::threshold::footprint::Footprint;
 use crate::threshold::hash::{Cell, octave_word};
-use crate::threshold::real::Real;
+use crate::threshold::real::{Real, power_of_two};
 use crate::threshold::two_scale::{Variant, length};
 
 /// The octave and the place within it along each axis. Isotropic scales hold the same value three times.
@@ -32,7 +32,7 @@ const LEAST_SHARE_OF_LONGEST: f64 = 1.0 / 32.0;
 /// The longest side of a cell stays between these, where neither it nor its inverse nor an index overflows.
 pub(in crate::threshold) fn side_bounds<R: Real>() -> [R; 2] {
     let exponent = R::MAX_EXPONENT * 100 / 127;
-    [-exponent, exponent].map(|exponent| R::from_f64(libm::exp2(f64::from(exponent))))
+    [-exponent, exponent].map(|exponent| R::from_f64(power_of_two(exponent)))
 }
 
 /// Finds the octaves of a footprint. `variant` is isotropic, or anisotropic; other variants count as isotropic.
@@ -111,7 +111,7 @@ pub(in crate::threshold) fn below_one<R: Real>(fraction: R) -> R {
 pub fn cell<R: Real>(position: R::Vec3, octave: [i32; 3], repairs: Repairs) -> Cell<R> {
     let position: [R; 3] = position.into();
     let index = [0, 1, 2].map(|axis| {
-        let scaled = R::from_f64(f64::from(octave[axis])).exp2() * position[axis];
+        let scaled = R::from_f64(power_of_two(octave[axis])) * position[axis];
         let whole = scaled.floor();
         let third = if octave[axis] & 1 == 0 { 2.0 / 3.0 } else { 1.0 / 3.0 };
         let beyond = repairs.contains(Repair::NestedPhase) && scaled - whole >= R::from_f64(third);
@@ -149,7 +149,7 @@ pub(in crate::threshold) fn floored<R: Real>(
 fn safe_length<R: Real>(v: [R; 3]) -> R {
     let plain = length(v);
     // Less than half the range of exponents, so that a square stays within it: 2^-50 and 2^60 in `f32`.
-    let power = |share: i32| R::from_f64(libm::exp2(f64::from(R::MAX_EXPONENT * share / 127)));
+    let power = |share: i32| R::from_f64(power_of_two(R::MAX_EXPONENT * share / 127));
     if plain > power(-50) && plain < power(60) {
         return plain;
     }
