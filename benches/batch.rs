@@ -83,7 +83,7 @@ fn slices(criterion: &mut Criterion) {
 fn all(criterion: &mut Criterion) {
     slices(criterion);
     thresholds::<f32>(criterion, &Tier::ALL);
-    thresholds::<f64>(criterion, &[Tier::BitExact]);
+    thresholds::<f64>(criterion, &[Tier::Fast, Tier::TwoUlp, Tier::BitExact]);
 }
 
 criterion_group!(benches, all);

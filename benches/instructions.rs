@@ -102,6 +102,8 @@ fn kernels(count: usize) -> Vec<(String, Kernel)> {
         let batch = Batch { model: listing_1, tier, isa: Isa::Avx2 };
         all.push((format!("avx2-listing-1-{tier}"), in_batch::<f32>(batch, count)));
     }
+    let batch = Batch { model: listing_1, tier: Tier::TwoUlp, isa: Isa::Avx2 };
+    all.push(("avx2-listing-1-f64-two-ulp".to_owned(), in_batch::<f64>(batch, count)));
     all
 }
 

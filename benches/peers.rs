@@ -1,7 +1,9 @@
-//! Listing 1 in C, compiled by gcc and clang with `-Ofast -march=native` and a vector math library, beside our batch.
+//! Listing 1 in C, compiled by gcc and clang with `-Ofast -march=native` and a vector math library, and in WGSL on every
+//! device, beside our batch.
 //!
-//! The same footprints, in turns; a compiler that is missing is skipped with a message. A peer is as exact as a tier of ours
-//! where as many of its thresholds have the bits of the reference.
+//! The same footprints, in turns; what is missing is skipped with a message. A peer is as exact as a tier of ours where as
+//! many of its thresholds have the bits of the reference. A device draws its footprints itself, of a similar law, and is
+//! timed by its own clock; lavapipe and SwiftShader run on all cores, and so a line of ours on all threads stands beside.
 
 // Its results are what a reader of the terminal wants.
 #![allow(clippy::print_stdout)]
@@ -16,6 +18,10 @@ use hashed_alpha::threshold::two_scale::Variant;
 use std::fs;
 use std::path::Path;
 use std::process::Command;
+
+#[cfg(feature = "gpu")]
+#[path = "peers/device.rs"]
+mod device;
 
 const ROUNDS: usize = 320;
 const TURNS: usize = 5;
@@ -46,6 +52,8 @@ fn main() {
     };
     let reference: Vec<f32> =
         pool.footprints(0).iter().map(|footprint| listing.threshold(footprint)).collect();
+    #[cfg(feature = "gpu")]
+    let devices = device::Contestant::all(listing.hash);
     let peers: Vec<_> = PEERS.iter().filter_map(|peer| built(peer, folder.path())).collect();
     let batches = Tier::ALL.map(|tier| Batch { tier, ..Batch::new(listing) });
     for turn in 1..=TURNS {
@@ -67,6 +75,8 @@ fn main() {
                 times[0].min, times[0].median, batch.tier, batch.isa
             );
         }
+        #[cfg(feature = "gpu")]
+        device::race(&devices, Batch::new(listing), &pool);
         for (name, program) in &peers {
             let thresholds = folder.path().join("thresholds");
             let output = Command::new(program).args([&columns, &thresholds]).arg(ROUNDS.to_string()).output();

@@ -3,7 +3,8 @@
 //!
 //! Six runs at [`Budget::Quick`]; `HASHED_ALPHA_BUDGET=nightly` makes it a thousand, `quick` three, and
 //! `HASHED_ALPHA_RUNS` any other number. With `HASHED_ALPHA_BLESS=all` the table goes to `docs/calibration.md`, as it is
-//! after every few runs.
+//! after every few runs. With `HASHED_ALPHA_RESUME=FILE` the p-values go to a file as well, and runs that it has are not
+//! run again: a thousand take hours.
 
 mod budget;
 
@@ -20,6 +21,7 @@ use hashed_alpha::threshold::two_scale::Variant;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
+use std::io::Write as _;
 use std::num::NonZeroU32;
 use std::path::Path;
 
@@ -165,18 +167,48 @@ fn page(runs: usize, table: &[Calibration]) -> String {
     page
 }
 
+/// Reads what [`note`] wrote; nothing where there is no such file.
+fn earlier(file: &Path) -> BTreeMap<u64, Vec<(&'static str, f64)>> {
+    let mut runs: BTreeMap<u64, Vec<(&'static str, f64)>> = BTreeMap::new();
+    for line in std::fs::read_to_string(file).unwrap_or_default().lines() {
+        let words: Vec<&str> = line.split(' ').collect();
+        let [run, claim, p] = words[..] else { panic!("{}: {line}", file.display()) };
+        let claim = claims::ALL.iter().find(|known| known.id == claim).expect("a claim that there is").id;
+        runs.entry(run.parse().expect("a run")).or_default().push((claim, p.parse().expect("a p-value")));
+    }
+    runs
+}
+
+/// Adds a line for each p-value of some runs.
+fn note<'a>(file: &Path, found: impl Iterator<Item = (u64, &'a str, f64)>) {
+    let lines: String = found.map(|(run, claim, p)| format!("{run} {claim} {p:?}\n")).collect();
+    let mut file = std::fs::File::options().create(true).append(true).open(file).expect("a file for notes");
+    file.write_all(lines.as_bytes()).expect("room for the notes");
+}
+
 #[test]
 fn an_ideal_source_is_never_rejected_and_its_p_values_are_true() {
     let asked = std::env::var("HASHED_ALPHA_RUNS").ok();
     let runs = asked.map_or(budget().pick(3, 6, 1000), |runs| runs.parse().expect("a number of runs"));
     let numbers: Vec<u64> = (0..runs).collect();
+    let notes = std::env::var_os("HASHED_ALPHA_RESUME");
+    let noted = notes.as_ref().map_or_else(BTreeMap::new, |file| earlier(Path::new(file)));
     let (mut table, mut done) = (Vec::new(), 0);
     let mut by_claim: BTreeMap<&str, Vec<f64>> = BTreeMap::new();
     for some in numbers.chunks(A_FEW) {
-        let found: Vec<_> = some.par_iter().with_max_len(1).map(|&run| battery(run)).collect();
+        let fresh = |run: u64| noted.get(&run).map_or_else(|| battery(run), |found| Ok(found.clone()));
+        let found: Vec<_> = some.par_iter().with_max_len(1).map(|&run| fresh(run)).collect();
         let rejected: Vec<&String> = found.iter().filter_map(|run| run.as_ref().err()).collect();
         assert!(rejected.is_empty(), "{rejected:#?}");
-        for (claim, p) in found.into_iter().flatten().flatten() {
+        let found: Vec<_> = some.iter().zip(found.into_iter().flatten()).collect();
+        if let Some(file) = &notes {
+            let new = found.iter().filter(|(run, _)| !noted.contains_key(run));
+            note(
+                Path::new(file),
+                new.flat_map(|(run, found)| found.iter().map(move |&(claim, p)| (**run, claim, p))),
+            );
+        }
+        for (claim, p) in found.into_iter().flat_map(|(_, found)| found) {
             by_claim.entry(claim).or_default().push(p);
         }
         done += some.len();

@@ -4,10 +4,10 @@
 //! alpha 1 every sample, whatever the random numbers, in every function that is not called literal.
 
 use crate::threshold::coverage::{decorrelated, decorrelated_literal, jittered, jittered_literal, regular};
-use crate::threshold::fade_in::clamp_last;
 use crate::threshold::hash::integer::{murmur3, pcg};
 use crate::threshold::hash::open_lattice;
 use crate::threshold::real::Real;
+use crate::threshold::stratify::wrap;
 use core::num::NonZeroU32;
 
 /// The samples that a fragment covers.
@@ -97,7 +97,7 @@ pub fn random_set(alpha: f64, n: NonZeroU32, xi: f64, word: u32) -> Mask {
 pub fn by_pixel<R: Real>(alpha: R, n: NonZeroU32, pixel: [u32; 2]) -> Mask {
     let chi = open_lattice::<R>(murmur3([pixel[0], pixel[1], 0, 0]));
     let size = R::from_f64(f64::from(n.get()));
-    by_threshold(alpha, n, |i| clamp_last((chi + R::from_f64(f64::from(i)) / size).fract()))
+    by_threshold(alpha, n, |i| wrap(chi + R::from_f64(f64::from(i)) / size))
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use crate::threshold::fade_in::clamp_last;
 use crate::threshold::real::Real;
-use crate::threshold::stratify::{alternating, alternating_literal, stratified};
+use crate::threshold::stratify::{alternating, alternating_literal, stratified, wrap};
 use core::num::NonZeroU32;
 
 /// How n strata are spread over n frames.
@@ -59,7 +59,7 @@ impl Order {
             Self::Ascending => stratified(chi, i, n),
             Self::AlternatingLiteral => stratified(chi, alternating_literal(i, n), n),
             Self::Alternating => stratified(chi, alternating(i, n), n),
-            Self::VanDerCorputLiteral => clamp_last((chi + R::from_f64(radical_inverse(i, 2))).fract()),
+            Self::VanDerCorputLiteral => wrap(chi + R::from_f64(radical_inverse(i, 2))),
             Self::VanDerCorput => stratified(chi, radical_rank(i, n), n),
             Self::PhaseRotated => rotated(chi, i, n, alternating),
             Self::PhaseRotatedVanDerCorput => rotated(chi, i, n, radical_rank),

@@ -261,6 +261,18 @@ pub fn sin_f32(x: f32) -> f32 {
     if x.abs() <= SIN_F32_DOMAIN { sin_in_domain::<false>(x) } else { libm::sin(f64::from(x)) as f32 }
 }
 
+/// Coefficients of the odd polynomial of degree 15 for sin(pi f), f in [-1/2, 1/2].
+pub(super) const SINE_OF_HALF_TURNS: [f64; 8] = [
+    f64::from_bits(0x4009_21fb_5444_2d16),
+    f64::from_bits(0xc014_abbc_e625_bd40),
+    f64::from_bits(0x4004_66bc_6775_0710),
+    f64::from_bits(0xbfe3_2d2c_ce14_bd2c),
+    f64::from_bits(0x3fb5_0783_2391_fc0f),
+    f64::from_bits(0xbf7e_3061_dc9d_6e7a),
+    f64::from_bits(0x3f3e_89bd_5885_1811),
+    f64::from_bits(0xbef6_24e8_9f86_3665),
+];
+
 /// [`sin_f32`] for |x| <= [`SIN_F32_DOMAIN`], without a branch; any number for other arguments.
 ///
 /// `FUSED` lets a product enter a sum unrounded, where the machine has that as one instruction. The `f64` in between
@@ -273,16 +285,6 @@ pub(super) fn sin_in_domain<const FUSED: bool>(x: f32) -> f32 {
     const HALF_TURNS_LOW: f64 = f64::from_bits(0xbdeb_1bbe_ad60_3d8b);
     /// Adding and subtracting 1.5 * 2^52 rounds to the nearest integer, which the low bits of the sum then hold.
     const TO_INTEGER: f64 = 6_755_399_441_055_744.0;
-    const SINE_OF_HALF_TURNS: [f64; 8] = [
-        f64::from_bits(0x4009_21fb_5444_2d16),
-        f64::from_bits(0xc014_abbc_e625_bd40),
-        f64::from_bits(0x4004_66bc_6775_0710),
-        f64::from_bits(0xbfe3_2d2c_ce14_bd2c),
-        f64::from_bits(0x3fb5_0783_2391_fc0f),
-        f64::from_bits(0xbf7e_3061_dc9d_6e7a),
-        f64::from_bits(0x3f3e_89bd_5885_1811),
-        f64::from_bits(0xbef6_24e8_9f86_3665),
-    ];
     let wide = f64::from(x);
     let half_turns = wide * HALF_TURNS_HIGH;
     let shifted = half_turns + TO_INTEGER;
@@ -329,6 +331,15 @@ pub(super) fn log2_everywhere<const FUSED: bool>(x: f32) -> f32 {
 pub(super) fn log2_of_normal<const FUSED: bool>(x: f32, exponent: i32) -> f32 {
     /// The smallest `f32` above sqrt(1/2).
     const SQRT_HALF_BITS: u32 = 0x3f35_04f4;
+    let bits = x.to_bits();
+    let shift = (bits.wrapping_sub(SQRT_HALF_BITS) as i32) >> 23;
+    let m = f64::from(f32::from_bits(bits.wrapping_sub((shift << 23) as u32)));
+    log2_near_one::<FUSED>(m, f64::from(shift + exponent)) as f32
+}
+
+/// Returns the logarithm of `m` to base two plus `exponent`, for `m` in [sqrt(1/2), sqrt 2); `FUSED` as in [`sin_in_domain`].
+#[inline(always)]
+pub(super) fn log2_near_one<const FUSED: bool>(m: f64, exponent: f64) -> f64 {
     const COEFFICIENTS: [f64; 9] = [
         f64::from_bits(0x4007_1547_652b_82fe),
         f64::from_bits(0x3fee_c709_dc3a_03fc),
@@ -340,12 +351,8 @@ pub(super) fn log2_of_normal<const FUSED: bool>(x: f32, exponent: i32) -> f32 {
         f64::from_bits(0x3fc8_7740_3989_7f75),
         f64::from_bits(0x3fc8_7d8e_bae9_9ae1),
     ];
-    let bits = x.to_bits();
-    let shift = (bits.wrapping_sub(SQRT_HALF_BITS) as i32) >> 23;
-    let m = f64::from(f32::from_bits(bits.wrapping_sub((shift << 23) as u32)));
     let s = (m - 1.0) / (m + 1.0);
-    let exponent = f64::from(shift + exponent);
-    multiply_add::<FUSED>(s, horner::<FUSED, 9>(s * s, &COEFFICIENTS), exponent) as f32
+    multiply_add::<FUSED>(s, horner::<FUSED, 9>(s * s, &COEFFICIENTS), exponent)
 }
 
 /// Returns two to the power of `x`, correctly rounded for every `x`; 0 below and infinity above the range of `f32`.
@@ -364,7 +371,7 @@ pub fn exp2_f32(x: f32) -> f32 {
 
 /// Evaluates `c0 + x (c1 + x (c2 + ...))`; `FUSED` as in [`sin_in_domain`].
 #[inline(always)]
-fn horner<const FUSED: bool, const N: usize>(x: f64, coefficients: &[f64; N]) -> f64 {
+pub(super) fn horner<const FUSED: bool, const N: usize>(x: f64, coefficients: &[f64; N]) -> f64 {
     let mut sum = coefficients[N - 1];
     for &coefficient in coefficients[..N - 1].iter().rev() {
         sum = multiply_add::<FUSED>(sum, x, coefficient);

@@ -13,10 +13,19 @@ pub fn stratified_literal<R: Real>(chi: R, i: u32, n: NonZeroU32) -> R {
 }
 
 /// Returns the threshold of stratum `i` of `n`, in [2^-24, 1], for `chi` in (0, 1]; `i` counts modulo `n`. Eq. 6, with
-/// the clamp after it.
+/// a whole sum as 1 and the clamp after it.
+///
+/// With `fract` a `chi` that comes to 1 would fall to 0 in the first stratum, where nothing else changes `chi` at all: a
+/// fragment that no alpha below 1 shows would be shown by every alpha.
 #[must_use]
 pub fn stratified<R: Real>(chi: R, i: u32, n: NonZeroU32) -> R {
-    clamp_last(stratified_literal(chi, i % n, n))
+    wrap(chi + R::from_f64(f64::from(i % n)) / R::from_f64(f64::from(n.get())))
+}
+
+/// Brings the sum of a threshold in (0, 1] and an offset in [0, 1) back into [2^-24, 1], where 0 counts as 1.
+pub(crate) fn wrap<R: Real>(sum: R) -> R {
+    let one = R::from_f64(1.0);
+    clamp_last(if sum > one { sum - one } else { sum })
 }
 
 /// Returns the stratum that the paper gives to frame `i` of `n`: `i / 2 + (i mod 2) n / 2`, in whole numbers. §7.2.3.
@@ -38,6 +47,7 @@ pub fn alternating(i: u32, n: NonZeroU32) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::threshold::robust::SMALLEST_ROBUST_THRESHOLD;
 
     fn sizes() -> impl Iterator<Item = NonZeroU32> {
         (1..=64).filter_map(NonZeroU32::new)
@@ -69,11 +79,19 @@ mod tests {
     }
 
     #[test]
+    fn the_first_stratum_changes_nothing() {
+        for chi in [SMALLEST_ROBUST_THRESHOLD as f32, 0.3, 0.999_999_94, 1.0] {
+            assert!(sizes().all(|n| stratified(chi, 0, n) == chi), "{chi}");
+        }
+        assert!(stratified(f32::NAN, 3, NonZeroU32::MIN).is_nan());
+    }
+
+    #[test]
     fn literal_strata_reach_zero_and_stable_ones_do_not() {
         let n = NonZeroU32::new(8).unwrap();
         assert_eq!(stratified_literal(1.0_f32, 0, n), 0.0);
         assert_eq!(stratified_literal(0.25_f32, 6, n), 0.0);
-        assert!(stratified(1.0_f32, 0, n) > 0.0 && stratified(0.25_f32, 6, n) > 0.0);
+        assert_eq!([stratified(1.0_f32, 0, n), stratified(0.25_f32, 6, n)], [1.0; 2]);
     }
 
     /// The share of frames that keep a fragment misses alpha by less than one frame.

@@ -76,10 +76,10 @@ impl<R: Kernel> Cells<R> {
     pub fn hash<const FUSED: bool>(&mut self, kind: HashKind, tier: Tier, out: &mut Block<R>) {
         match kind {
             HashKind::Sine | HashKind::SineChi2 => match tier {
-                Tier::Coarse if R::HAS_TIERS => self.hash_sine(kind, R::sine_coarse, out),
-                Tier::Fast if R::HAS_TIERS => self.hash_sine(kind, R::sine_fast, out),
-                Tier::TwoUlp if R::HAS_TIERS => self.hash_sine(kind, R::sine_two_ulp, out),
-                _ => self.hash_sine(kind, R::sine::<FUSED>, out),
+                Tier::Coarse => self.hash_sine(kind, R::sine_coarse, out),
+                Tier::Fast => self.hash_sine(kind, R::sine_fast, out),
+                Tier::TwoUlp => self.hash_sine(kind, R::sine_two_ulp, out),
+                Tier::BitExact => self.hash_sine(kind, R::sine::<FUSED>, out),
             },
             HashKind::Mm4 => self.hash_words(integer::Mm4::word, out),
             HashKind::Xxhash32 => self.hash_words(integer::Xxhash32::word, out),

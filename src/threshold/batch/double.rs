@@ -1,21 +1,21 @@
-//! The sine and the logarithm of `f64` without a branch, bit for bit those of libm.
+//! The sine and the logarithm of `f64` without a branch: bit for bit those of libm, and faster ones.
 //!
 //! libm follows FreeBSD's msun (Sun Microsystems 1993): the sine takes off multiples of pi/2 in two parts and ends in
 //! one of two polynomials, the logarithm keeps its leading half apart. The operations here are the same ones in the
 //! same order; where libm would have taken another way than the common one, the answer is NaN.
 
 use super::lane::Kernel;
-use crate::threshold::real::Real;
+use crate::threshold::real::{Real, SINE_OF_HALF_TURNS, horner, log2_near_one};
 use crate::threshold::robust::scales::below_one;
 
 impl Kernel for f64 {
     const LARGEST_WORD: Self = 1_125_899_906_842_624.0;
     const LARGEST_SINE: Self = 90_000.0;
+    const LARGEST_FAST_SINE: Self = 60_000_000.0;
     // 2^-800 and 2^800.
     const SCALES: [Self; 2] = [f64::from_bits(223 << 52), f64::from_bits(1823 << 52)];
     // 2^-784 and 2^958: within the bounds of the scaled length.
     const SQUARES: [Self; 2] = [f64::from_bits(239 << 52), f64::from_bits(1981 << 52)];
-    const HAS_TIERS: bool = false;
 
     #[inline(always)]
     fn power(octave: i32) -> Self {
@@ -37,14 +37,30 @@ impl Kernel for f64 {
     }
     #[inline(always)]
     fn octave_by_exponent<const FUSED: bool>(scale: Self) -> (i32, Self) {
-        const MANTISSA: u64 = (1 << 52) - 1;
-        const ONE: u64 = 0x3ff << 52;
-        let mantissa = f64::from_bits((scale.to_bits() & MANTISSA) | ONE);
-        (exponent(scale) as i32 - 1023, below_one(log2(mantissa)))
+        (exponent(scale) as i32 - 1023, below_one(log2(mantissa(scale))))
     }
     #[inline(always)]
     fn sine<const FUSED: bool>(self) -> Self {
         sin(self)
+    }
+    #[inline(always)]
+    fn octave_fast(scale: Self) -> (i32, Self) {
+        let mantissa = mantissa(scale);
+        let upper = mantissa > core::f64::consts::SQRT_2;
+        let (near_one, whole) = if upper { (0.5 * mantissa, 1.0) } else { (mantissa, 0.0) };
+        (exponent(scale) as i32 - 1023, below_one(log2_near_one::<true>(near_one, whole)))
+    }
+    #[inline(always)]
+    fn sine_two_ulp(self) -> Self {
+        sin_by_three_parts(self)
+    }
+    #[inline(always)]
+    fn sine_fast(self) -> Self {
+        sin_by_half_turns(self)
+    }
+    #[inline(always)]
+    fn sine_coarse(self) -> Self {
+        sin_by_half_turns(self)
     }
 }
 
@@ -84,6 +100,52 @@ fn sin(x: f64) -> f64 {
     let two_are_enough = (lost(second) <= 49) & (x.abs() > SMALL);
     let sure = (high.abs() < SURE) & (!cancels | two_are_enough);
     if sure { value } else { f64::NAN }
+}
+
+/// Returns the sine with an absolute error below 2^-50 for |x| up to 2^30: the argument is counted in half-turns.
+///
+/// 1/pi has two parts, and the first product enters the difference to the nearest integer unrounded.
+#[inline(always)]
+fn sin_by_half_turns(x: f64) -> f64 {
+    const PER_HALF_TURN: [f64; 2] = [core::f64::consts::FRAC_1_PI, f64::from_bits(0xbc76_b01e_c541_7056)];
+    let shifted = x.mul_add(PER_HALF_TURN[0], TO_INTEGER);
+    let nearest = shifted - TO_INTEGER;
+    let rest = x.mul_add(PER_HALF_TURN[1], x.mul_add(PER_HALF_TURN[0], -nearest));
+    let sine = rest * horner::<true, 8>(rest * rest, &SINE_OF_HALF_TURNS);
+    f64::from_bits(sine.to_bits() ^ (shifted.to_bits() << 63))
+}
+
+/// Returns the sine within two units in the last place for |x| up to 2^30: multiples of pi, in three parts, are taken off.
+///
+/// The first difference is exact. An odd polynomial of degree 17 follows, with a relative error of 2^-61.
+#[inline(always)]
+fn sin_by_three_parts(x: f64) -> f64 {
+    const PI: [f64; 3] =
+        [core::f64::consts::PI, f64::from_bits(0x3ca1_a626_3314_5c07), f64::from_bits(0xb92f_1976_b7ed_8fbc)];
+    const COEFFICIENTS: [f64; 8] = [
+        f64::from_bits(0xbfc5_5555_5555_5555),
+        f64::from_bits(0x3f81_1111_1111_10c8),
+        f64::from_bits(0xbf2a_01a0_1a01_4d6f),
+        f64::from_bits(0x3ec7_1de3_a52a_0b16),
+        f64::from_bits(0xbe5a_e645_4d47_4685),
+        f64::from_bits(0x3de6_123c_d074_93e1),
+        f64::from_bits(0xbd6a_e438_4742_7fa3),
+        f64::from_bits(0x3ce8_832a_84d7_db70),
+    ];
+    let shifted = x.mul_add(core::f64::consts::FRAC_1_PI, TO_INTEGER);
+    let nearest = shifted - TO_INTEGER;
+    let rest = (-nearest).mul_add(PI[2], (-nearest).mul_add(PI[1], (-nearest).mul_add(PI[0], x)));
+    let squared = rest * rest;
+    let sine = (rest * squared).mul_add(horner::<true, 8>(squared, &COEFFICIENTS), rest);
+    f64::from_bits(sine.to_bits() ^ (shifted.to_bits() << 63))
+}
+
+/// Returns the mantissa of a positive normal number, in [1, 2).
+#[inline(always)]
+fn mantissa(x: f64) -> f64 {
+    const MANTISSA: u64 = (1 << 52) - 1;
+    const ONE: u64 = 0x3ff << 52;
+    f64::from_bits((x.to_bits() & MANTISSA) | ONE)
 }
 
 /// Returns the biased exponent.
@@ -194,6 +256,38 @@ mod tests {
             let x = f64::from(quarter) * core::f64::consts::FRAC_PI_2 + 1.0e-6;
             assert_eq!(sin(x).to_bits(), libm::sin(x).to_bits(), "{x:e}");
         }
+    }
+
+    #[test]
+    fn the_faster_sines_are_as_exact_as_they_say() {
+        let mut rng = rng("threshold.batch.sine_by_three_parts", 0);
+        let anywhere: Vec<f64> = (0..1_000_000)
+            .map(|i| (uniform01(&mut rng) - 0.5) * libm::exp2(10.0 + f64::from(i % 22)))
+            .collect();
+        let near_zeros = (1..100_000)
+            .chain(300_000_000..300_100_000)
+            .map(|half_turns| f64::from(half_turns) * core::f64::consts::PI);
+        let (mut worst, mut absolute) = (0, 0.0_f64);
+        for x in anywhere.into_iter().chain(near_zeros) {
+            let (value, exact) = (sin_by_three_parts(x), core_math::sin(x));
+            worst = worst.max(value.to_bits().abs_diff(exact.to_bits()));
+            absolute = absolute.max((sin_by_half_turns(x) - exact).abs());
+        }
+        assert!((1..=2).contains(&worst), "{worst}");
+        assert!((1.0e-16..libm::exp2(-50.0)).contains(&absolute), "{absolute:e}");
+    }
+
+    #[test]
+    fn the_fast_octave_is_that_of_libm_within_a_few_last_places() {
+        for i in 0..100_000 {
+            let scale = libm::exp2(f64::from(i) * 1.3e-3 - 60.0);
+            let ((octave, fraction), exact) = (f64::octave_fast(scale), libm::log2(scale));
+            assert!((0.0..1.0).contains(&fraction), "{scale:e}: {fraction}");
+            let off = f64::from(octave) + fraction - exact;
+            assert!(off.abs() < libm::exp2(-46.0), "{scale:e}: {off:e}");
+        }
+        let powers = (-60..60).map(crate::threshold::real::power_of_two);
+        assert!(powers.zip(-60..60).all(|(power, octave)| f64::octave_fast(power) == (octave, 0.0)));
     }
 
     #[test]

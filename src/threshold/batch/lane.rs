@@ -12,12 +12,12 @@ pub trait Kernel: Real {
     const LARGEST_WORD: Self;
     /// Cells with coordinates up to this number have sines that [`Kernel::sine`] gives: 17.1 of them are in its domain.
     const LARGEST_SINE: Self;
+    /// The same for the faster sines.
+    const LARGEST_FAST_SINE: Self;
     /// Scales between these have neither an octave nor a cell that overflows.
     const SCALES: [Self; 2];
     /// Squares of lengths between these are neither rounded to zero nor infinite.
     const SQUARES: [Self; 2];
-    /// Whether there are faster and less exact ways.
-    const HAS_TIERS: bool;
 
     /// Returns two to the power of `octave`, exactly, for an octave of a normal number.
     fn power(octave: i32) -> Self;
@@ -32,36 +32,24 @@ pub trait Kernel: Real {
     /// Returns the sine of an angle in radians as the scalar path does.
     fn sine<const FUSED: bool>(self) -> Self;
 
-    /// [`Kernel::octave_by_exponent`] with the logarithm of the two faster tiers.
-    #[inline(always)]
-    fn octave_fast(scale: Self) -> (i32, Self) {
-        Self::octave_by_exponent::<false>(scale)
-    }
-    /// Returns the sine of [`Tier::Coarse`](super::Tier::Coarse).
-    #[inline(always)]
-    fn sine_coarse(self) -> Self {
-        self.sine::<false>()
-    }
-    /// Returns the sine of [`Tier::Fast`](super::Tier::Fast).
-    #[inline(always)]
-    fn sine_fast(self) -> Self {
-        self.sine::<false>()
-    }
+    /// [`Kernel::octave_by_exponent`] with the logarithm of the faster tiers.
+    fn octave_fast(scale: Self) -> (i32, Self);
     /// Returns the sine of [`Tier::TwoUlp`](super::Tier::TwoUlp).
-    #[inline(always)]
-    fn sine_two_ulp(self) -> Self {
-        self.sine::<false>()
-    }
+    fn sine_two_ulp(self) -> Self;
+    /// Returns the sine of [`Tier::Fast`](super::Tier::Fast).
+    fn sine_fast(self) -> Self;
+    /// Returns the sine of [`Tier::Coarse`](super::Tier::Coarse).
+    fn sine_coarse(self) -> Self;
 }
 
 impl Kernel for f32 {
     const LARGEST_WORD: Self = 4_194_303.0;
     const LARGEST_SINE: Self = 960_000.0;
+    const LARGEST_FAST_SINE: Self = Self::LARGEST_SINE;
     // 2^-100 and 2^100.
     const SCALES: [Self; 2] = [f32::from_bits(27 << 23), f32::from_bits(227 << 23)];
     // 2^-98 and 2^119.
     const SQUARES: [Self; 2] = [f32::from_bits(29 << 23), f32::from_bits(246 << 23)];
-    const HAS_TIERS: bool = true;
 
     #[inline(always)]
     fn power(octave: i32) -> Self {

@@ -92,7 +92,7 @@ impl<R: Kernel> Octaves<R> {
         let Self { coarse, fine, fraction, scale, .. } = self;
         let (coarse, fine, fraction, scale) =
             (&mut coarse[axis], &mut fine[axis], &mut fraction[axis], &scale[axis]);
-        if R::HAS_TIERS && plan.tier != Tier::BitExact {
+        if plan.tier != Tier::BitExact {
             for i in 0..BLOCK {
                 (coarse[i], fraction[i]) = R::octave_fast(scale[i]);
             }

@@ -90,7 +90,8 @@ impl<R: Kernel> Plan<R> {
     /// The largest coordinate of a cell that the loops can hash.
     pub fn largest_cell(&self) -> R {
         match self.hash {
-            HashKind::Sine | HashKind::SineChi2 => R::LARGEST_SINE,
+            HashKind::Sine | HashKind::SineChi2 if self.tier == Tier::BitExact => R::LARGEST_SINE,
+            HashKind::Sine | HashKind::SineChi2 => R::LARGEST_FAST_SINE,
             _ => R::LARGEST_WORD,
         }
     }

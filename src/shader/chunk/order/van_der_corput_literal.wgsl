@@ -2,5 +2,5 @@
 // that is no power of two. Section 7.2.3.
 fn van_der_corput(chi: f32, i: u32) -> f32 {
     let sum = chi + radical_inverse(i);
-    return clamp_last(sum - floor(sum));
+    return clamp_last(select(sum, sum - 1.0, sum > 1.0));
 }
