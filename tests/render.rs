@@ -65,6 +65,8 @@ fn takes() -> Vec<(SceneFile, Effects)> {
         limited_level = { level = 4.0 }
         supersampling = { samples = 2 }
         jitter = { frames = 4 }
+        conservative = {}
+        foveated = { gaze = [20.0, 20.0], radius = 5.0, slope = 0.1 }
         history = { weight = 0.2, clamp = true }
         average = { frames = 4 }
     "#;
@@ -173,7 +175,7 @@ fn an_absent_table_of_the_scene_is_not_measured() {
         (SceneFile { truth: None, ..file.clone() }, &["rmse", "ssim", "coverage_ratio"][..]),
         (SceneFile { distance: None, ..file.clone() }, &["@"]),
         (SceneFile { layers: None, ..file.clone() }, &["layer_correlation"]),
-        (still, &["flips"]),
+        (still, &["flips", "changed"]),
     ] {
         let left = names(without);
         for gone in gone {
@@ -220,6 +222,16 @@ fn shader_text_has_the_chunks_of_its_stages_only() {
         ),
         ("robust = { variant = 'anisotropic' }", "fn robust", "fixed = {}"),
         ("hashed = {}", "fn hash", "stochastic = {}"),
+        (
+            "hashed = {}\nconservative = {}",
+            "fn corrected",
+            "hashed = {}\nconservative = { corrected = false }",
+        ),
+        (
+            "hashed = {}\nfoveated = { gaze = [1.0, 2.0], radius = 3.0, slope = 0.1 }",
+            "fn coarser_by",
+            "hashed = {}",
+        ),
     ] {
         assert!(of(with).contains(chunk), "{with}");
         assert!(!of(without).contains(chunk), "{without}");

@@ -23,6 +23,7 @@ macro_rules! gallery {
 gallery![
     "vanishing-foliage",
     "mips-and-wires",
+    "sub-pixel-cards",
     "samples-converge",
     "grazing-fence",
     "axis-plane",
@@ -31,6 +32,7 @@ gallery![
     "subpixel-motion",
     "checkerboard",
     "noise-scales",
+    "foveated",
     "halo",
     "coordinates",
     "auto",

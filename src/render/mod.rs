@@ -13,6 +13,7 @@
 //! | [`survey`], [`auto`] | what is measured of a scene, and effects chosen from it |
 //! | [`adjust`], [`temporal`] | textures before the first frame, pictures after each |
 //! | [`run`], [`truth`] | a frame by a plan, and as it should be |
+//! | [`sub_pixel`] | thresholds of what covers a part of its pixel |
 //! | [`study`], [`metrics`], [`expect`] | all takes of a scene, what is measured, what must come out |
 //! | [`picture`] | images side by side, differences, sequences |
 //! | [`gallery`] | the figures of the sources as scenes |
@@ -41,6 +42,7 @@ pub mod rasterise;
 pub mod run;
 pub mod stage;
 pub mod study;
+pub mod sub_pixel;
 pub mod surface;
 pub mod survey;
 pub mod tables;

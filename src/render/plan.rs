@@ -8,11 +8,12 @@ use super::cost::Cost;
 use super::effects::{ALL, Effects, Known};
 use super::fragments::{Fragments, Needs};
 use super::prepare::Scene;
-use super::rasterise::Screen;
+use super::rasterise::{Screen, TILE};
 use super::stage::{Stage, hashes};
 use super::study::{Shot, shots};
 use super::tables::{Pattern, Space};
 use super::texture::Texture;
+use crate::technique::foveated::Gaze;
 use crate::technique::jitter::camera_jitter;
 use crate::threshold::fixed::FIXED_THRESHOLD;
 use crate::threshold::hashed::HashedAlpha;
@@ -38,6 +39,8 @@ pub struct Plan {
     pub samples: u32,
     /// What it needs of textures.
     pub textures: TextureNeeds,
+    /// Where the viewer looks, if that matters.
+    pub gaze: Option<Gaze>,
     /// The number of frames in which the camera moves within a pixel.
     pub jitter: Option<NonZeroU32>,
 }
@@ -66,7 +69,11 @@ pub fn plan(effects: &Effects) -> Plan {
         (Some(_), _) => Some(Scaling::Levels),
         (None, texels) => texels.as_ref().map(|texels| Scaling::Texels(texels.radius)),
     };
-    let mut stages = vec![Stage::Rasterise(places), Stage::SampleAlpha(coarsest)];
+    let gaze = effects.foveated.as_ref().map(super::tables::Foveated::gaze);
+    let mut stages = vec![Stage::Rasterise(places)];
+    stages.extend(effects.conservative.as_ref().map(|_| Stage::Touch));
+    stages.extend(gaze.map(Stage::Foveate));
+    stages.push(Stage::SampleAlpha(coarsest));
     stages.extend(scaling.map(Stage::Scaled));
     let again = stages.clone();
     let coverage = effects.alpha_to_coverage.as_ref();
@@ -85,6 +92,9 @@ pub fn plan(effects: &Effects) -> Plan {
     }
     if !stages.iter().any(|stage| matches!(stage, Stage::Fixed(_) | Stage::LevelThreshold)) {
         stages.push(Stage::Clamp);
+    }
+    if effects.conservative.as_ref().is_some_and(|conservative| conservative.corrected) {
+        stages.push(Stage::Correct);
     }
     stages.extend([Stage::Test, Stage::Resolve { divide: effects.premultiplied.is_some() }]);
     if effects.test_then_blend.is_some() {
@@ -114,6 +124,7 @@ pub fn plan(effects: &Effects) -> Plan {
                 .into_iter()
                 .chain([effects.independent.is_some(), effects.jitter.is_some()])
                 .any(|reads| reads),
+            coverage: effects.conservative.is_some(),
         },
         textures: TextureNeeds {
             premultiplied: effects.premultiplied.is_some(),
@@ -121,6 +132,7 @@ pub fn plan(effects: &Effects) -> Plan {
             scaling,
         },
         jitter: effects.jitter.as_ref().map(|jitter| jitter.frames),
+        gaze,
         stages,
         space,
         places,
@@ -218,7 +230,8 @@ impl Plan {
 
     /// Counts the fragments of a frame and the texels that they read.
     fn census(&self, scene: &Scene, textures: &[Texture], shot: &Shot, frame: u32) -> (u64, u64) {
-        let needs = Needs { texture_derivatives: self.needs.texture_derivatives, ..Needs::default() };
+        let Needs { texture_derivatives, coverage, .. } = self.needs;
+        let needs = Needs { texture_derivatives, coverage, ..Needs::default() };
         let camera = shot.camera(scene, frame, self.places);
         let screen =
             Screen::new(&scene.mesh, &camera, f64::from(frame), self.offset(frame), Space::Object, needs);
@@ -226,11 +239,12 @@ impl Plan {
             .into_par_iter()
             .map_init(Fragments::default, |fragments, tile| {
                 screen.fragments(tile, fragments);
+                let (corner, _) = screen.tile(tile);
                 let texels: u64 = (0..fragments.len())
                     .map(|at| {
                         let texture =
                             &textures[scene.mesh.triangles[fragments.triangle[at] as usize].texture as usize];
-                        texture.texels(&self.access(texture, fragments, at))
+                        texture.texels(&self.access(texture, fragments, corner, at))
                     })
                     .sum();
                 (fragments.len() as u64, texels)
@@ -245,15 +259,27 @@ impl Plan {
         DVec2::from(jitter) * f64::from(self.places)
     }
 
-    /// Where a fragment reads its texture.
+    /// Where a fragment of the tile whose upper left pixel is `corner` reads its texture.
     #[must_use]
-    pub fn access(&self, texture: &Texture, fragments: &Fragments, at: usize) -> super::texture::Access {
+    pub fn access(
+        &self,
+        texture: &Texture,
+        fragments: &Fragments,
+        corner: [u32; 2],
+        at: usize,
+    ) -> super::texture::Access {
         let [dtdx, dtdy] = if self.needs.texture_derivatives {
             [fragments.dtdx[at], fragments.dtdy[at]]
         } else {
             [glam::Vec2::ZERO; 2]
         };
         let mut access = texture.access(fragments.texcoord[at], dtdx, dtdy);
+        if let Some(gaze) = &self.gaze {
+            let pixel = u32::from(fragments.pixel[at]);
+            let place = [corner[0] + pixel % TILE, corner[1] + pixel / TILE];
+            let place = place.map(|along| (f64::from(along) + 0.5) / f64::from(self.places));
+            access.lod += gaze.coarser_by(place) as f32;
+        }
         for stage in &self.stages {
             if let Stage::SampleAlpha(Some(coarsest)) = stage {
                 access.lod = access.lod.min(*coarsest);

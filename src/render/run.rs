@@ -8,6 +8,7 @@ use super::prepare::Scene;
 use super::rasterise::{Screen, TILE};
 use super::stage::{Stage, hashes};
 use super::study::Shot;
+use super::sub_pixel;
 use super::tables::{FadeIn, Pattern};
 use super::texture::{Access, Texture};
 use crate::technique::blend_towards::blend_towards;
@@ -152,7 +153,7 @@ impl Draw<'_> {
                         return result;
                     }
                 }
-                Stage::SampleAlpha(_) => self.sample(work, &mut result.cost),
+                Stage::SampleAlpha(_) => self.sample(work, tile, &mut result.cost),
                 Stage::Fixed(threshold) => {
                     work.threshold.clear();
                     work.threshold.resize(work.fragments.len(), *threshold);
@@ -178,6 +179,10 @@ impl Draw<'_> {
                     self.cover(work, tile, *samples, *pattern, &mut rng, &mut result.cost);
                 }
                 Stage::FadeIn(table) => self.fade(work, table),
+                Stage::Correct => {
+                    let samples = self.plan.samples as usize;
+                    sub_pixel::correct(&work.fragments, self.scene.parts(), samples, &mut work.threshold);
+                }
                 Stage::Clamp => work.threshold.iter_mut().for_each(|t| *t = clamp_last(*t)),
                 Stage::Test => {
                     test(work, self.plan.samples as usize);
@@ -188,8 +193,9 @@ impl Draw<'_> {
                     self.blend(work, *threshold, &mut result);
                     result.cost.blends += work.fragments.len() as u64;
                 }
-                // The first is done beforehand, the second by the hash, the others on whole pictures.
-                Stage::Scaled(_) | Stage::Independent(_) => {}
+                // The first is done beforehand, the second by the hash, the third when fragments are made, the fourth when
+                // texels are read, the others on whole pictures.
+                Stage::Scaled(_) | Stage::Independent(_) | Stage::Touch | Stage::Foveate(_) => {}
                 Stage::Downsample(_) | Stage::History(_) | Stage::Average(_) => {}
             }
         }
@@ -199,12 +205,13 @@ impl Draw<'_> {
         result
     }
 
-    fn sample(&self, work: &mut Work, cost: &mut Cost) {
+    fn sample(&self, work: &mut Work, tile: usize, cost: &mut Cost) {
+        let (corner, _) = self.screen.tile(tile);
         work.access.clear();
         work.alpha.clear();
         for at in 0..work.fragments.len() {
             let texture = self.texture(work.fragments.triangle[at]);
-            let access = self.plan.access(texture, &work.fragments, at);
+            let access = self.plan.access(texture, &work.fragments, corner, at);
             work.alpha.push(texture.alpha(&access, &mut cost.texels));
             work.access.push(access);
         }
@@ -401,7 +408,11 @@ fn layer_sums(work: &Work, samples: u32) -> LayerSums {
     }
     let mut sums = LayerSums::default();
     for pair in first.iter().filter(|pair| pair[1] != NONE) {
-        let alphas = pair.map(|at| f64::from(work.alpha[at as usize]));
+        let alphas = pair.map(|at| {
+            // What a fragment covers in the mean, if it covers a part of its pixel only.
+            let share = work.fragments.coverage.get(at as usize).unwrap_or(&1.0);
+            share * f64::from(work.alpha[at as usize])
+        });
         if alphas.iter().any(|alpha| !(0.01..=0.99).contains(alpha)) {
             continue;
         }

@@ -1,5 +1,6 @@
 //! The tables of effects as a scene file has them, one struct each.
 
+use crate::technique::foveated::Gaze;
 use crate::technique::order::Order;
 use crate::threshold::cdf::CdfForm;
 use crate::threshold::hash::HashKind;
@@ -237,6 +238,40 @@ pub struct FadeIn {
 pub struct Average {
     /// Number of frames that are averaged.
     pub frames: NonZeroU32,
+}
+
+/// Every pixel that a surface touches.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Conservative {
+    /// Whether thresholds are divided by the share of the pixel that the surface covers; without, surfaces grow by half a
+    /// pixel on every side.
+    #[serde(default = "yes")]
+    pub corrected: bool,
+}
+
+/// Coarser levels away from where the viewer looks.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Foveated {
+    /// The point looked at, in pixels from the upper left corner of the image.
+    pub gaze: [f64; 2],
+    /// Up to this distance everything is drawn in full, in pixels, at least 0.
+    pub radius: f64,
+    /// Growth of the size of a shaded sample beyond the radius, in pixels a pixel, at least 0.
+    pub slope: f64,
+}
+
+impl Foveated {
+    /// Returns where the viewer looks, in pixels of the image.
+    #[must_use]
+    pub const fn gaze(&self) -> Gaze {
+        Gaze { centre: self.gaze, radius: self.radius, slope: self.slope }
+    }
+}
+
+fn yes() -> bool {
+    true
 }
 
 fn alternating() -> Order {
