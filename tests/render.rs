@@ -6,7 +6,7 @@ use hashed_alpha::render::adjust::textures;
 use hashed_alpha::render::effects::{self, ALL, Effects};
 use hashed_alpha::render::file::{self, SceneFile, Takes};
 use hashed_alpha::render::gallery::GALLERY;
-use hashed_alpha::render::plan::{Plan, plan};
+use hashed_alpha::render::plan::{Census, Plan, plan};
 use hashed_alpha::render::prepare::{Scene, prepare};
 use hashed_alpha::render::stage::hashes;
 use hashed_alpha::render::study::{Study, study};
@@ -67,6 +67,7 @@ fn takes() -> Vec<(SceneFile, Effects)> {
         jitter = { frames = 4 }
         conservative = {}
         foveated = { gaze = [20.0, 20.0], radius = 5.0, slope = 0.1 }
+        occlusion = { reach = 0.5, variant = "anisotropic" }
         history = { weight = 0.2, clamp = true }
         average = { frames = 4 }
     "#;
@@ -146,7 +147,8 @@ fn an_absent_table_leaves_no_trace() {
                 "{}",
                 known.name
             );
-            let costs = |plan: &Plan| plan.cost_of_frame(1000, 8000, 100).quantities();
+            let census = Census { fragments: 1000, texels: 8000, pixels: 100, shown: 90 };
+            let costs = |plan: &Plan| plan.cost_of_frame(census).quantities();
             let cheaper = costs(&without).into_iter().zip(costs(&whole)).all(|(less, more)| less.1 <= more.1);
             assert!(cheaper, "{}: {}", file.name, known.name);
             let (with, without) = (whole.shader().expect("sound"), without.shader().expect("sound"));
@@ -222,6 +224,7 @@ fn shader_text_has_the_chunks_of_its_stages_only() {
         ),
         ("robust = { variant = 'anisotropic' }", "fn robust", "fixed = {}"),
         ("hashed = {}", "fn hash", "stochastic = {}"),
+        ("occlusion = { reach = 1.0 }", "fn cosine_direction", ""),
         (
             "hashed = {}\nconservative = {}",
             "fn corrected",

@@ -97,6 +97,7 @@ fn degenerate() -> Vec<Fragment> {
 #[test]
 fn functions_beside_the_threshold_are_those_of_rust() {
     let fragments = fragments(2000);
+    let fraction = |x: f64| x - x.floor();
     let found = |chunk: &str, call: &str| {
         let text = format!(
             "{chunk}fn threshold(position: vec3<f32>) -> f32 {{ let p = abs(position); return {call}; }}"
@@ -116,7 +117,7 @@ fn functions_beside_the_threshold_are_those_of_rust() {
         }
     };
     expect(found(beside::CORRECTED, "corrected(p.x, fract(p.y) + 0.001)"), &|[x, y, _]| {
-        conservative::corrected(x, y.fract() + 0.001)
+        conservative::corrected(x, fraction(y) + 0.001)
     });
     expect(found(beside::COARSER_BY, "coarser_by(p.xy, vec2<f32>(100.0, 50.0), p.z, 0.05)"), &|[x, y, z]| {
         Gaze { centre: [100.0, 50.0], radius: z, slope: 0.05 }.coarser_by([x, y])
@@ -124,7 +125,7 @@ fn functions_beside_the_threshold_are_those_of_rust() {
     for (axis, name) in ["x", "y", "z"].iter().enumerate() {
         let call = format!("cosine_direction(fract(p.xy)).{name}");
         expect(found(beside::COSINE_DIRECTION, &call), &|[x, y, _]| {
-            cosine_direction([x.fract(), y.fract()])[axis]
+            cosine_direction([x, y].map(fraction))[axis]
         });
     }
 }

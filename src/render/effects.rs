@@ -3,8 +3,8 @@
 
 use super::tables::{
     AlphaToCoverage, Average, Conservative, Coordinates, FadeIn, FinestLevel, Fixed, Foveated, Hashed,
-    History, Independent, Jitter, LevelThreshold, LimitedLevel, Pattern, Premultiplied, RobustHash,
-    ScaledAlpha, ScaledTexels, Stochastic, Supersampling, Temporal, TestThenBlend,
+    History, Independent, Jitter, LevelThreshold, LimitedLevel, Occlusion, Pattern, Premultiplied,
+    RobustHash, ScaledAlpha, ScaledTexels, Stochastic, Supersampling, Temporal, TestThenBlend,
 };
 use crate::threshold::two_scale::Variant;
 use serde::Deserialize;
@@ -89,6 +89,8 @@ effects! {
     fade_in: FadeIn, "§7.1, Eqs. 3 to 5", "Fades noise in with distance", "nothing but a mixture";
     test_then_blend: TestThenBlend, "§3 (Moore & Jefferies 2009)", "Draws what fails the test once more, blended",
         "passes, fragments, texels: twice; blends: 1 a fragment";
+    occlusion: Occlusion, "§9, Fig. 8", "Traces one ray a pixel into the open, in a direction that stays with the surface",
+        "rays: 1 for each pixel that shows a surface; hashes or random numbers: 2 values a ray";
     history: History, "§7.2 (Karis 2014)", "Averages frames exponentially, as temporal antialiasing does",
         "blends: 1 a pixel and frame";
     average: Average, "§7.2", "Averages frames, as temporal antialiasing does", "samples: one blend a pixel and frame";
@@ -196,6 +198,18 @@ pub fn check(effects: &Effects) -> Result<(), String> {
         return Err(
             "`test_then_blend` works with one threshold: take the other away or use `fixed`".to_owned()
         );
+    }
+    if let Some(occlusion) = &effects.occlusion {
+        positive("occlusion.reach", occlusion.reach)?;
+        if matches!(occlusion.variant, Variant::Linear | Variant::Single) {
+            return Err("`occlusion.variant` must be isotropic or anisotropic".to_owned());
+        }
+        if effects.test_then_blend.is_some() {
+            return Err(
+                "`occlusion` needs one surface a pixel and `test_then_blend` shows several; keep one"
+                    .to_owned(),
+            );
+        }
     }
     if let Some(history) = &effects.history
         && !(history.weight > 0.0 && history.weight <= 1.0)

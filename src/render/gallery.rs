@@ -33,6 +33,7 @@ gallery![
     "checkerboard",
     "noise-scales",
     "foveated",
+    "occlusion",
     "halo",
     "coordinates",
     "auto",

@@ -23,6 +23,9 @@ use std::collections::BTreeMap;
 /// | `flips.translate`, `.zoom`, `.rotate` | the same with one cause of motion alone |
 /// | `layer_correlation` | correlation of the visibilities of the first two layers, where both are partly transparent |
 /// | `coverage_ratio.gaze`, `.periphery` | the coverage ratio within the circle around the gaze, and outside |
+/// | `open` | share of the rays that are open, over all frames |
+/// | `open_flips` | change of that share a frame, per pixel with a ray in both |
+/// | `open_run_ratio` | `run_ratio` of open and occluded pixels |
 /// | `run_x`, `run_y` | mean length of runs of equal visibility along the rows and the columns, in pixels |
 /// | `run_ratio` | `run_y / run_x` |
 ///
@@ -56,12 +59,23 @@ struct Sums {
     flips: [f64; 2],
     /// Change of coverage over all pixels, and the number of frames that were compared.
     changed: [f64; 2],
+    open: Option<OpenSums>,
     /// Neighbours along each axis that differ, and all.
     runs: [[f64; 2]; 2],
     layers: Option<LayerSums>,
     /// Coverage and that of the truth, within the circle around the gaze and outside.
     gaze: Option<[[f64; 2]; 2]>,
     mean: Option<Picture>,
+}
+
+#[derive(Clone, Debug, Default)]
+struct OpenSums {
+    /// Rays, and those that are open.
+    rays: [u64; 2],
+    before: Vec<Option<f32>>,
+    /// Change of the share, and pixels that were compared.
+    flips: [f64; 2],
+    runs: [[f64; 2]; 2],
 }
 
 #[derive(Clone, Debug)]
@@ -102,7 +116,11 @@ impl Measured {
             sums.changed[1] += 1.0;
         }
         sums.before = Some((picture.coverage.clone(), frame.touched.clone()));
-        runs(frame, &mut sums.runs);
+        let size = picture.size.map(|side| side as usize);
+        runs(size, |at| frame.touched[at].then(|| picture.coverage[at] >= 0.5), &mut sums.runs);
+        if !frame.rays.is_empty() {
+            sums.open.get_or_insert_default().add(size, &frame.rays);
+        }
         if asked.layers {
             let layers = sums.layers.get_or_insert_default();
             layers.covariance += frame.layers.covariance;
@@ -164,6 +182,14 @@ impl Measured {
         put("run_x", run_x);
         put("run_y", run_y);
         put("run_ratio", run_y / run_x.max(f64::MIN_POSITIVE));
+        if let Some(open) = &sums.open {
+            put("open", open.rays[1] as f64 / open.rays[0].max(1) as f64);
+            if open.flips[1] > 0.0 {
+                put("open_flips", open.flips[0] / open.flips[1]);
+            }
+            let [x, y] = open.runs.map(|[differ, all]| all / f64::max(differ, 1.0));
+            put("open_run_ratio", y / x.max(f64::MIN_POSITIVE));
+        }
         if let Some(layers) = sums.layers {
             put("layer_correlation", layers.covariance / layers.deviation.max(f64::MIN_POSITIVE));
         }
@@ -219,9 +245,25 @@ fn similarity(a: &Picture, b: &Picture) -> f64 {
         .map_or(f64::NAN, |similarity| similarity.score)
 }
 
-fn runs(frame: &Frame, runs: &mut [[f64; 2]; 2]) {
-    let [width, height] = frame.picture.size.map(|side| side as usize);
-    let seen = |at: usize| frame.touched[at].then(|| frame.picture.coverage[at] >= 0.5);
+impl OpenSums {
+    fn add(&mut self, size: [usize; 2], rays: &[[u16; 2]]) {
+        let share = |&[rays, open]: &[u16; 2]| (rays > 0).then(|| f32::from(open) / f32::from(rays));
+        let now: Vec<Option<f32>> = rays.iter().map(share).collect();
+        for [rays, open] in rays {
+            self.rays = [self.rays[0] + u64::from(*rays), self.rays[1] + u64::from(*open)];
+        }
+        for (before, now) in self.before.iter().zip(&now) {
+            if let (Some(before), Some(now)) = (before, now) {
+                self.flips = [self.flips[0] + f64::from((before - now).abs()), self.flips[1] + 1.0];
+            }
+        }
+        runs(size, |at| now[at].map(|share| share >= 0.5), &mut self.runs);
+        self.before = now;
+    }
+}
+
+/// Counts neighbours along each axis that are seen differently, and all of which both are seen.
+fn runs([width, height]: [usize; 2], seen: impl Fn(usize) -> Option<bool>, runs: &mut [[f64; 2]; 2]) {
     for y in 0..height {
         for x in 0..width {
             let Some(here) = seen(y * width + x) else { continue };

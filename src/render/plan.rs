@@ -7,11 +7,13 @@ use super::adjust::Scaling;
 use super::cost::Cost;
 use super::effects::{ALL, Effects, Known};
 use super::fragments::{Fragments, Needs};
+use super::occlusion;
 use super::prepare::Scene;
 use super::rasterise::{Screen, TILE};
+use super::run;
 use super::stage::{Stage, hashes};
 use super::study::{Shot, shots};
-use super::tables::{Pattern, Space};
+use super::tables::{Chi, Pattern, Space};
 use super::texture::Texture;
 use crate::technique::foveated::Gaze;
 use crate::technique::jitter::camera_jitter;
@@ -21,6 +23,19 @@ use crate::threshold::robust::Robust;
 use core::num::NonZeroU32;
 use glam::DVec2;
 use rayon::prelude::*;
+
+/// What of a frame costs depend on.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Census {
+    /// Fragments.
+    pub fragments: u64,
+    /// Texels that they read when all are read once.
+    pub texels: u64,
+    /// Pixels of the image.
+    pub pixels: u64,
+    /// Pixels of the places that show a surface; 0 where no stage asks.
+    pub shown: u64,
+}
 
 /// What one take does.
 #[derive(Clone, Debug, PartialEq)]
@@ -96,7 +111,9 @@ pub fn plan(effects: &Effects) -> Plan {
     if effects.conservative.as_ref().is_some_and(|conservative| conservative.corrected) {
         stages.push(Stage::Correct);
     }
-    stages.extend([Stage::Test, Stage::Resolve { divide: effects.premultiplied.is_some() }]);
+    stages.push(Stage::Test);
+    stages.extend(effects.occlusion.map(Stage::Occlude));
+    stages.push(Stage::Resolve { divide: effects.premultiplied.is_some() });
     if effects.test_then_blend.is_some() {
         stages.extend(again);
         stages.push(Stage::Blend(
@@ -116,13 +133,14 @@ pub fn plan(effects: &Effects) -> Plan {
     Plan {
         name: effects.name.clone().unwrap_or_else(|| name(effects)),
         needs: Needs {
-            footprint: stages.iter().any(|stage| matches!(stage, Stage::Hash(..))),
+            footprint: stages.iter().any(|stage| matches!(stage, Stage::Hash(..) | Stage::Occlude(_))),
             texture_derivatives: coarsest != Some(0.0) || effects.fade_in.is_some(),
             layer: decorrelated,
             lod: effects.fade_in.is_some(),
             frame: [effects.temporal.is_some(), effects.stochastic.is_some(), decorrelated]
                 .into_iter()
                 .chain([effects.independent.is_some(), effects.jitter.is_some()])
+                .chain(effects.occlusion.map(|occlusion| occlusion.chi == Chi::Random))
                 .any(|reads| reads),
             coverage: effects.conservative.is_some(),
         },
@@ -181,10 +199,10 @@ fn name(effects: &Effects) -> String {
 }
 
 impl Plan {
-    /// Returns what the stages cost in one frame of `pixels` pixels with so many fragments, which read so many texels when
-    /// all are read once.
+    /// Returns what the stages cost in one frame.
     #[must_use]
-    pub fn cost_of_frame(&self, fragments: u64, texels: u64, pixels: u64) -> Cost {
+    pub fn cost_of_frame(&self, census: Census) -> Cost {
+        let Census { fragments, texels, pixels, shown } = census;
         let mut cost = Cost { frames: 1, ..Cost::default() };
         let mut thresholds = fragments;
         for stage in &self.stages {
@@ -206,6 +224,7 @@ impl Plan {
                     }
                 }
                 Stage::Test => cost.tests += thresholds,
+                Stage::Occlude(table) => cost += occlusion::cost(table, shown),
                 Stage::Blend(_) => cost.blends += fragments,
                 Stage::History(_) | Stage::Average(_) => cost.blends += pixels,
                 _ => {}
@@ -214,18 +233,32 @@ impl Plan {
         cost
     }
 
-    /// Predicts what all shots of a scene cost, from the fragments that its geometry makes; nothing is shaded.
+    /// Predicts what all shots of a scene cost, from the fragments that its geometry makes; nothing is shaded. Only rays
+    /// start where the alpha test lets a surface show: a plan with rays is drawn once without them.
     #[must_use]
     pub fn predict(&self, scene: &Scene, textures: &[Texture]) -> Cost {
         let pixels = scene.file.resolution.map(u64::from).iter().product();
+        let tested = self.before_rays();
         let mut cost = Cost::default();
         for shot in shots(scene) {
             for frame in 0..scene.file.frames.get() {
                 let (fragments, texels) = self.census(scene, textures, &shot, frame);
-                cost += self.cost_of_frame(fragments, texels, pixels);
+                let shown = tested.as_ref().map_or(0, |tested| {
+                    let drawn = run::frame(scene, textures, tested, &shot, frame);
+                    drawn.picture.coverage.iter().filter(|&&share| share > 0.0).count() as u64
+                });
+                cost += self.cost_of_frame(Census { fragments, texels, pixels, shown });
             }
         }
         cost
+    }
+
+    /// The same at the places within pixels and without rays, if it has any.
+    fn before_rays(&self) -> Option<Self> {
+        let is_ray = |stage: &Stage| matches!(stage, Stage::Occlude(_));
+        let whole = |stage: &&Stage| !is_ray(stage) && !matches!(stage, Stage::Downsample(_));
+        let stages = self.stages.iter().filter(whole).cloned().collect();
+        self.stages.iter().any(is_ray).then(|| Self { stages, ..self.clone() })
     }
 
     /// Counts the fragments of a frame and the texels that they read.

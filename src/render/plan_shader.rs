@@ -63,6 +63,7 @@ impl Plan {
         for stage in &self.stages {
             match stage {
                 Stage::Foveate(_) => text.push_str(beside::COARSER_BY),
+                Stage::Occlude(_) => text.push_str(beside::COSINE_DIRECTION),
                 Stage::Correct => text.push_str(beside::CORRECTED),
                 _ => {}
             }

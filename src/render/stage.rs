@@ -1,7 +1,7 @@
 //! The stages of which plans are made.
 
 use super::adjust::Scaling;
-use super::tables::{FadeIn, History, Pattern, Space};
+use super::tables::{FadeIn, History, Occlusion, Pattern, Space};
 use crate::technique::foveated::Gaze;
 use crate::technique::order::Order;
 use crate::threshold::batch::Model;
@@ -44,6 +44,8 @@ pub enum Stage {
     Correct,
     /// Alpha against threshold.
     Test,
+    /// One ray from the nearest fragment that is kept.
+    Occlude(Occlusion),
     /// The nearest fragment that is kept, at each sample; its colour, divided by alpha where that was multiplied in.
     Resolve {
         /// Whether colours are divided by alpha.
@@ -71,6 +73,7 @@ impl Stage {
             Self::SampleAlpha(Some(_)) => Some("limited_level"),
             Self::Touch | Self::Correct => Some("conservative"),
             Self::Foveate(_) => Some("foveated"),
+            Self::Occlude(_) => Some("occlusion"),
             // The plain alpha test is what a plan has without any table.
             Self::Fixed(0.5) => None,
             Self::Fixed(_) => Some("fixed"),
@@ -102,6 +105,11 @@ impl Stage {
             Self::Touch => "rasterise: every pixel that a triangle touches".to_owned(),
             Self::Foveate(Gaze { centre: [x, y], radius, slope }) => format!(
                 "foveate: samples of 1 px within {radius} px of ({x}, {y}), beyond that {slope} px more a pixel"
+            ),
+            Self::Occlude(Occlusion { reach, chi, variant }) => format!(
+                "occlude: one ray from the nearest that is kept, up to {reach} units, {} by the {variant} listing; \
+                 triangles are solid to it",
+                chi.name()
             ),
             Self::Correct => "correct: thresholds over the share of the pixel, those above 1 too".to_owned(),
             Self::SampleAlpha(None) => "sample alpha: at the level of the footprint".to_owned(),
