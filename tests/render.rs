@@ -6,7 +6,7 @@ use hashed_alpha::render::adjust::textures;
 use hashed_alpha::render::effects::{self, ALL, Effects};
 use hashed_alpha::render::file::{self, SceneFile, Takes};
 use hashed_alpha::render::gallery::GALLERY;
-use hashed_alpha::render::plan::{Plan, plan};
+use hashed_alpha::render::plan::{Census, Plan, plan};
 use hashed_alpha::render::prepare::{Scene, prepare};
 use hashed_alpha::render::stage::hashes;
 use hashed_alpha::render::study::{Study, study};
@@ -65,6 +65,9 @@ fn takes() -> Vec<(SceneFile, Effects)> {
         limited_level = { level = 4.0 }
         supersampling = { samples = 2 }
         jitter = { frames = 4 }
+        conservative = {}
+        foveated = { gaze = [20.0, 20.0], radius = 5.0, slope = 0.1 }
+        occlusion = { reach = 0.5, variant = "anisotropic" }
         history = { weight = 0.2, clamp = true }
         average = { frames = 4 }
     "#;
@@ -144,7 +147,8 @@ fn an_absent_table_leaves_no_trace() {
                 "{}",
                 known.name
             );
-            let costs = |plan: &Plan| plan.cost_of_frame(1000, 8000, 100).quantities();
+            let census = Census { fragments: 1000, texels: 8000, pixels: 100, shown: 90 };
+            let costs = |plan: &Plan| plan.cost_of_frame(census).quantities();
             let cheaper = costs(&without).into_iter().zip(costs(&whole)).all(|(less, more)| less.1 <= more.1);
             assert!(cheaper, "{}: {}", file.name, known.name);
             let (with, without) = (whole.shader().expect("sound"), without.shader().expect("sound"));
@@ -173,7 +177,7 @@ fn an_absent_table_of_the_scene_is_not_measured() {
         (SceneFile { truth: None, ..file.clone() }, &["rmse", "ssim", "coverage_ratio"][..]),
         (SceneFile { distance: None, ..file.clone() }, &["@"]),
         (SceneFile { layers: None, ..file.clone() }, &["layer_correlation"]),
-        (still, &["flips"]),
+        (still, &["flips", "changed"]),
     ] {
         let left = names(without);
         for gone in gone {
@@ -220,6 +224,17 @@ fn shader_text_has_the_chunks_of_its_stages_only() {
         ),
         ("robust = { variant = 'anisotropic' }", "fn robust", "fixed = {}"),
         ("hashed = {}", "fn hash", "stochastic = {}"),
+        ("occlusion = { reach = 1.0 }", "fn cosine_direction", ""),
+        (
+            "hashed = {}\nconservative = {}",
+            "fn corrected",
+            "hashed = {}\nconservative = { corrected = false }",
+        ),
+        (
+            "hashed = {}\nfoveated = { gaze = [1.0, 2.0], radius = 3.0, slope = 0.1 }",
+            "fn coarser_by",
+            "hashed = {}",
+        ),
     ] {
         assert!(of(with).contains(chunk), "{with}");
         assert!(!of(without).contains(chunk), "{without}");

@@ -7,9 +7,13 @@ use hashed_alpha::scene::fragment::Fragment;
 use hashed_alpha::shader::assemble::{
     Coverage, FadeIn, ScreenDoor, ShaderOptions, Source, Stratify, assemble,
 };
+use hashed_alpha::shader::beside;
 use hashed_alpha::shader::export::{self, export};
 use hashed_alpha::shader::interpreter::DeviceModel;
 use hashed_alpha::shader::own::{self, OwnShader};
+use hashed_alpha::technique::conservative;
+use hashed_alpha::technique::foveated::Gaze;
+use hashed_alpha::technique::occlusion::cosine_direction;
 use hashed_alpha::technique::{order::Order, screen_door};
 use hashed_alpha::threshold::cdf::CdfForm;
 use hashed_alpha::threshold::footprint::Footprint;
@@ -87,6 +91,43 @@ fn degenerate() -> Vec<Fragment> {
         }
     }
     fragments
+}
+
+/// The functions beside the threshold, called with the coordinates of the position.
+#[test]
+fn functions_beside_the_threshold_are_those_of_rust() {
+    let fragments = fragments(2000);
+    let fraction = |x: f64| x - x.floor();
+    let found = |chunk: &str, call: &str| {
+        let text = format!(
+            "{chunk}fn threshold(position: vec3<f32>) -> f32 {{ let p = abs(position); return {call}; }}"
+        );
+        let shader =
+            own::parse("beside", own::Language::Wgsl, text.as_bytes(), &own::Options::default()).unwrap();
+        run(&shader, &fragments)
+    };
+    let expect = |found: Vec<f32>, wanted: &dyn Fn([f64; 3]) -> f64| {
+        for (fragment, found) in fragments.iter().zip(found) {
+            let place = fragment.footprint.position.abs().to_array().map(|c| f64::from(c as f32));
+            let wanted = wanted(place);
+            assert!(
+                (f64::from(found) - wanted).abs() <= 4e-6 * (1.0 + wanted.abs()),
+                "{place:?}: {found} {wanted}"
+            );
+        }
+    };
+    expect(found(beside::CORRECTED, "corrected(p.x, fract(p.y) + 0.001)"), &|[x, y, _]| {
+        conservative::corrected(x, fraction(y) + 0.001)
+    });
+    expect(found(beside::COARSER_BY, "coarser_by(p.xy, vec2<f32>(100.0, 50.0), p.z, 0.05)"), &|[x, y, z]| {
+        Gaze { centre: [100.0, 50.0], radius: z, slope: 0.05 }.coarser_by([x, y])
+    });
+    for (axis, name) in ["x", "y", "z"].iter().enumerate() {
+        let call = format!("cosine_direction(fract(p.xy)).{name}");
+        expect(found(beside::COSINE_DIRECTION, &call), &|[x, y, _]| {
+            cosine_direction([x, y].map(fraction))[axis]
+        });
+    }
 }
 
 #[test]

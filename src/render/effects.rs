@@ -2,9 +2,9 @@
 //! it exists.
 
 use super::tables::{
-    AlphaToCoverage, Average, Coordinates, FadeIn, FinestLevel, Fixed, Hashed, History, Independent, Jitter,
-    LevelThreshold, LimitedLevel, Pattern, Premultiplied, RobustHash, ScaledAlpha, ScaledTexels, Stochastic,
-    Supersampling, Temporal, TestThenBlend,
+    AlphaToCoverage, Average, Conservative, Coordinates, FadeIn, FinestLevel, Fixed, Foveated, Hashed,
+    History, Independent, Jitter, LevelThreshold, LimitedLevel, Occlusion, Pattern, Premultiplied,
+    RobustHash, ScaledAlpha, ScaledTexels, Stochastic, Supersampling, Temporal, TestThenBlend,
 };
 use crate::threshold::two_scale::Variant;
 use serde::Deserialize;
@@ -58,12 +58,16 @@ macro_rules! effects {
 effects! {
     supersampling: Supersampling, "§3", "Tests at several places of each pixel and averages",
         "fragments and all that follows, samples^2 times";
+    conservative: Conservative, "§2, Fig. 4", "Draws every pixel that a surface touches, and corrects the threshold by the share that it covers",
+        "fragments: one for every pixel and triangle that touch";
     premultiplied: Premultiplied, "§7.3", "Stores colours multiplied by alpha and divides after filtering",
         "a division a shaded sample";
     finest_level: FinestLevel, "§3", "Reads alpha from the finest level, however far the surface",
         "texels: as many, but far apart";
     limited_level: LimitedLevel, "§3", "Reads alpha from no level coarser than a given one",
         "texels: as many, but further apart";
+    foveated: Foveated, "§11, Fig. 15 (Patney et al. 2016)", "Reads coarser levels away from where the viewer looks",
+        "nothing: texels as many, but nearer together";
     level_threshold: LevelThreshold, "§3, Eq. 1", "Compares with a threshold for each level, so that all pass the share of the finest",
         "nothing but the test; a pass over the texture beforehand";
     scaled_alpha: ScaledAlpha, "§3 (Castano 2010)", "Scales the stored alphas of each level to that effect",
@@ -85,6 +89,8 @@ effects! {
     fade_in: FadeIn, "§7.1, Eqs. 3 to 5", "Fades noise in with distance", "nothing but a mixture";
     test_then_blend: TestThenBlend, "§3 (Moore & Jefferies 2009)", "Draws what fails the test once more, blended",
         "passes, fragments, texels: twice; blends: 1 a fragment";
+    occlusion: Occlusion, "§9, Fig. 8", "Traces one ray a pixel into the open, in a direction that stays with the surface",
+        "rays: 1 for each pixel that shows a surface; hashes or random numbers: 2 values a ray";
     history: History, "§7.2 (Karis 2014)", "Averages frames exponentially, as temporal antialiasing does",
         "blends: 1 a pixel and frame";
     average: Average, "§7.2", "Averages frames, as temporal antialiasing does", "samples: one blend a pixel and frame";
@@ -134,6 +140,18 @@ pub fn check(effects: &Effects) -> Result<(), String> {
         positive("fade_in.full_noise_lod", f64::from(fade_in.full_noise_lod))?;
         unit("fade_in.authored", f64::from(fade_in.authored))?;
     }
+    if let Some(foveated) = &effects.foveated {
+        let gaze = foveated.gaze();
+        if !gaze.centre.iter().chain([&gaze.radius, &gaze.slope]).all(|number| number.is_finite())
+            || gaze.radius < 0.0
+            || gaze.slope < 0.0
+        {
+            return Err("`foveated` needs a finite gaze, and a radius and a slope from 0 on".to_owned());
+        }
+        if effects.finest_level.is_some() {
+            return Err("`foveated` reads coarser levels and `finest_level` none; keep one".to_owned());
+        }
+    }
     if let Some(limited) = &effects.limited_level
         && !(limited.level >= 0.0 && limited.level.is_finite())
     {
@@ -169,12 +187,29 @@ pub fn check(effects: &Effects) -> Result<(), String> {
             _ => {}
         }
     }
+    if effects.conservative.is_some() && effects.test_then_blend.is_some() {
+        return Err(
+            "`conservative` corrects thresholds and `test_then_blend` blends without; keep one".to_owned()
+        );
+    }
     if effects.test_then_blend.is_some()
         && (noisy || effects.alpha_to_coverage.is_some() || effects.level_threshold.is_some())
     {
         return Err(
             "`test_then_blend` works with one threshold: take the other away or use `fixed`".to_owned()
         );
+    }
+    if let Some(occlusion) = &effects.occlusion {
+        positive("occlusion.reach", occlusion.reach)?;
+        if matches!(occlusion.variant, Variant::Linear | Variant::Single) {
+            return Err("`occlusion.variant` must be isotropic or anisotropic".to_owned());
+        }
+        if effects.test_then_blend.is_some() {
+            return Err(
+                "`occlusion` needs one surface a pixel and `test_then_blend` shows several; keep one"
+                    .to_owned(),
+            );
+        }
     }
     if let Some(history) = &effects.history
         && !(history.weight > 0.0 && history.weight <= 1.0)

@@ -16,6 +16,8 @@ pub struct Needs {
     pub lod: bool,
     /// The index of the frame.
     pub frame: bool,
+    /// The share of its pixel that it covers; every pixel that a triangle touches is drawn then.
+    pub coverage: bool,
 }
 
 impl Needs {
@@ -29,6 +31,7 @@ impl Needs {
             (self.layer, "index of the layer"),
             (self.lod, "level of detail"),
             (self.frame, "index of the frame"),
+            (self.coverage, "share of the pixel that is covered"),
         ];
         all.into_iter().filter(|&(needed, _)| needed).map(|(_, name)| name).collect()
     }
@@ -53,6 +56,8 @@ pub struct Fragments {
     pub footprint: ColumnBuffer<f32>,
     /// Which of the fragments of its pixel it is; empty unless needed.
     pub layer: Vec<u16>,
+    /// The share of its pixel that its triangle covers, in (0, 1]; empty unless needed.
+    pub coverage: Vec<f64>,
 }
 
 impl Fragments {
@@ -77,6 +82,7 @@ impl Fragments {
         self.dtdx.clear();
         self.dtdy.clear();
         self.layer.clear();
+        self.coverage.clear();
         let ColumnBuffer { position, dpdx, dpdy } = &mut self.footprint;
         [position, dpdx, dpdy].into_iter().flatten().for_each(Vec::clear);
     }

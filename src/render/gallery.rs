@@ -23,6 +23,7 @@ macro_rules! gallery {
 gallery![
     "vanishing-foliage",
     "mips-and-wires",
+    "sub-pixel-cards",
     "samples-converge",
     "grazing-fence",
     "axis-plane",
@@ -31,6 +32,8 @@ gallery![
     "subpixel-motion",
     "checkerboard",
     "noise-scales",
+    "foveated",
+    "occlusion",
     "halo",
     "coordinates",
     "auto",

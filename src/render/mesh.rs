@@ -1,6 +1,7 @@
 //! Triangles: what every surface becomes before it is drawn.
 
 use glam::{DAffine3, DVec2, DVec3};
+use rustc_hash::FxHashMap;
 
 /// A corner of a triangle, in every frame of reference that a hash may be anchored to.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -71,6 +72,35 @@ impl Object {
 }
 
 impl Mesh {
+    /// Returns for each triangle the number of the part that it belongs to: triangles of an object that share a corner are
+    /// of one part, however many vertices that corner has.
+    #[must_use]
+    pub fn parts(&self) -> Vec<u32> {
+        /// Corners nearer than this are one, in object units.
+        const WELD: f64 = 1.0e-6;
+        let mut corners: FxHashMap<(u32, [i64; 3]), u32> = FxHashMap::default();
+        // Each triangle points to one of its part that came earlier, or to itself.
+        let mut parents: Vec<u32> = (0..self.triangles.len() as u32).collect();
+        fn root(parents: &mut [u32], mut of: u32) -> u32 {
+            while parents[of as usize] != of {
+                let grandparent = parents[parents[of as usize] as usize];
+                parents[of as usize] = grandparent;
+                of = grandparent;
+            }
+            of
+        }
+        for (index, triangle) in self.triangles.iter().enumerate() {
+            for corner in triangle.corners {
+                let place = self.vertices[corner as usize].object / WELD;
+                let key = (triangle.object, place.to_array().map(|c| c.round() as i64));
+                let met = *corners.entry(key).or_insert(index as u32);
+                let [a, b] = [met, index as u32].map(|triangle| root(&mut parents, triangle));
+                parents[a.max(b) as usize] = a.min(b);
+            }
+        }
+        (0..parents.len() as u32).map(|triangle| root(&mut parents, triangle)).collect()
+    }
+
     /// Adds a quadrilateral as two triangles; corners in turn around it.
     pub fn quad(&mut self, corners: [Vertex; 4], object: u32, texture: u32) {
         let first = self.vertices.len() as u32;
@@ -78,5 +108,30 @@ impl Mesh {
         for corners in [[0, 1, 2], [0, 2, 3]] {
             self.triangles.push(Triangle { corners: corners.map(|c| first + c), object, texture });
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::{dvec2, dvec3};
+
+    #[test]
+    fn triangles_that_share_a_corner_are_of_one_part() {
+        let mut mesh = Mesh::default();
+        let corner = |x: f64, y: f64| {
+            let object = dvec3(x, y, 0.1);
+            Vertex { object, part: object, texcoord: dvec2(x, y) }
+        };
+        // Two panels side by side, up to rounding; one apart; one in the same place of another object.
+        for (left, object) in [(0.0, 0), (0.1 + 0.2, 0), (5.0, 0), (0.0, 1)] {
+            let right = if left == 0.0 { 0.3 } else { left + 0.3 };
+            mesh.quad(
+                [corner(left, 0.0), corner(right, 0.0), corner(right, 1.0), corner(left, 1.0)],
+                object,
+                0,
+            );
+        }
+        assert_eq!(mesh.parts(), [0, 0, 0, 0, 4, 4, 6, 6]);
     }
 }

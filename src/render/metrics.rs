@@ -4,6 +4,7 @@ use super::picture::Picture;
 use super::run::{Frame, LayerSums};
 use super::study::Shot;
 use super::view::Cause;
+use crate::technique::foveated::Gaze;
 use image::GrayImage;
 use image_compare::Algorithm;
 use std::collections::BTreeMap;
@@ -18,13 +19,27 @@ use std::collections::BTreeMap;
 /// | `rmse_of_mean` | that of the coverage of the mean over frames |
 /// | `ssim` | structural similarity of luminance to the truth, mean over frames |
 /// | `flips` | change of coverage a frame, per pixel that a surface touches in both |
+/// | `changed` | change of coverage a frame over the whole image, as a share of the mean coverage |
 /// | `flips.translate`, `.zoom`, `.rotate` | the same with one cause of motion alone |
 /// | `layer_correlation` | correlation of the visibilities of the first two layers, where both are partly transparent |
+/// | `coverage_ratio.gaze`, `.periphery` | the coverage ratio within the circle around the gaze, and outside |
+/// | `open` | share of the rays that are open, over all frames |
+/// | `open_flips` | change of that share a frame, per pixel with a ray in both |
+/// | `open_run_ratio` | `run_ratio` of open and occluded pixels |
 /// | `run_x`, `run_y` | mean length of runs of equal visibility along the rows and the columns, in pixels |
 /// | `run_ratio` | `run_y / run_x` |
 ///
 /// Those of another distance end in `@` and its factor.
 pub type Metrics = BTreeMap<String, f64>;
+
+/// What is measured beyond what every scene is.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Asked {
+    /// Correlation of the first two layers.
+    pub layers: bool,
+    /// The circle around the gaze and its outside, each alone.
+    pub gaze: Option<Gaze>,
+}
 
 /// Sums over the frames of a shot.
 #[derive(Clone, Debug, Default)]
@@ -42,10 +57,25 @@ struct Sums {
     before: Option<(Vec<f32>, Vec<bool>)>,
     /// Change of coverage, and pixels that were compared.
     flips: [f64; 2],
+    /// Change of coverage over all pixels, and the number of frames that were compared.
+    changed: [f64; 2],
+    open: Option<OpenSums>,
     /// Neighbours along each axis that differ, and all.
     runs: [[f64; 2]; 2],
     layers: Option<LayerSums>,
+    /// Coverage and that of the truth, within the circle around the gaze and outside.
+    gaze: Option<[[f64; 2]; 2]>,
     mean: Option<Picture>,
+}
+
+#[derive(Clone, Debug, Default)]
+struct OpenSums {
+    /// Rays, and those that are open.
+    rays: [u64; 2],
+    before: Vec<Option<f32>>,
+    /// Change of the share, and pixels that were compared.
+    flips: [f64; 2],
+    runs: [[f64; 2]; 2],
 }
 
 #[derive(Clone, Debug)]
@@ -71,7 +101,7 @@ impl Measured {
     }
 
     /// Adds a frame; `truth` as it should be.
-    pub fn add(&mut self, frame: &Frame, truth: Option<&Picture>, layered: bool) {
+    pub fn add(&mut self, frame: &Frame, truth: Option<&Picture>, asked: Asked) {
         let picture = &frame.picture;
         let sums = &mut self.sums;
         sums.frames += 1.0;
@@ -81,15 +111,25 @@ impl Measured {
                 sums.flips[0] += f64::from((picture.coverage[at] - before[at]).abs());
                 sums.flips[1] += 1.0;
             }
+            let changes = before.iter().zip(&picture.coverage).map(|(a, b)| f64::from((a - b).abs()));
+            sums.changed[0] += changes.sum::<f64>() / before.len().max(1) as f64;
+            sums.changed[1] += 1.0;
         }
         sums.before = Some((picture.coverage.clone(), frame.touched.clone()));
-        runs(frame, &mut sums.runs);
-        if layered {
+        let size = picture.size.map(|side| side as usize);
+        runs(size, |at| frame.touched[at].then(|| picture.coverage[at] >= 0.5), &mut sums.runs);
+        if !frame.rays.is_empty() {
+            sums.open.get_or_insert_default().add(size, &frame.rays);
+        }
+        if asked.layers {
             let layers = sums.layers.get_or_insert_default();
             layers.covariance += frame.layers.covariance;
             layers.deviation += frame.layers.deviation;
         }
         if let Some(truth) = truth {
+            if let Some(gaze) = &asked.gaze {
+                add_around(gaze, picture, truth, sums.gaze.get_or_insert_default());
+            }
             let errors = sums.truth.get_or_insert_with(|| TruthSums {
                 coverage: 0.0,
                 rmse: 0.0,
@@ -134,12 +174,27 @@ impl Measured {
         if sums.flips[1] > 0.0 {
             put("flips", flips);
         }
+        let [changed, compared] = sums.changed;
+        if compared > 0.0 {
+            put("changed", changed / compared / (sums.coverage / frames).max(f64::MIN_POSITIVE));
+        }
         let [run_x, run_y] = sums.runs.map(|[differ, all]| all / f64::max(differ, 1.0));
         put("run_x", run_x);
         put("run_y", run_y);
         put("run_ratio", run_y / run_x.max(f64::MIN_POSITIVE));
+        if let Some(open) = &sums.open {
+            put("open", open.rays[1] as f64 / open.rays[0].max(1) as f64);
+            if open.flips[1] > 0.0 {
+                put("open_flips", open.flips[0] / open.flips[1]);
+            }
+            let [x, y] = open.runs.map(|[differ, all]| all / f64::max(differ, 1.0));
+            put("open_run_ratio", y / x.max(f64::MIN_POSITIVE));
+        }
         if let Some(layers) = sums.layers {
             put("layer_correlation", layers.covariance / layers.deviation.max(f64::MIN_POSITIVE));
+        }
+        for (name, [shown, right]) in ["gaze", "periphery"].iter().zip(sums.gaze.into_iter().flatten()) {
+            put(&format!("coverage_ratio.{name}"), shown / right.max(f64::MIN_POSITIVE));
         }
         if let Some(errors) = &sums.truth {
             put("coverage_ratio", sums.coverage / errors.coverage.max(f64::MIN_POSITIVE));
@@ -167,6 +222,16 @@ impl Measured {
     }
 }
 
+fn add_around(gaze: &Gaze, picture: &Picture, truth: &Picture, sums: &mut [[f64; 2]; 2]) {
+    let width = picture.size[0] as usize;
+    for (at, (&shown, &right)) in picture.coverage.iter().zip(&truth.coverage).enumerate() {
+        let place = [at % width, at / width].map(|along| along as f64 + 0.5);
+        let outside = usize::from(!gaze.is_near(place));
+        sums[outside][0] += f64::from(shown);
+        sums[outside][1] += f64::from(right);
+    }
+}
+
 fn root_mean_square(a: &[f32], b: &[f32]) -> f64 {
     let squares: f64 = a.iter().zip(b).map(|(a, b)| f64::from(a - b) * f64::from(a - b)).sum();
     (squares / a.len().max(1) as f64).sqrt()
@@ -180,9 +245,25 @@ fn similarity(a: &Picture, b: &Picture) -> f64 {
         .map_or(f64::NAN, |similarity| similarity.score)
 }
 
-fn runs(frame: &Frame, runs: &mut [[f64; 2]; 2]) {
-    let [width, height] = frame.picture.size.map(|side| side as usize);
-    let seen = |at: usize| frame.touched[at].then(|| frame.picture.coverage[at] >= 0.5);
+impl OpenSums {
+    fn add(&mut self, size: [usize; 2], rays: &[[u16; 2]]) {
+        let share = |&[rays, open]: &[u16; 2]| (rays > 0).then(|| f32::from(open) / f32::from(rays));
+        let now: Vec<Option<f32>> = rays.iter().map(share).collect();
+        for [rays, open] in rays {
+            self.rays = [self.rays[0] + u64::from(*rays), self.rays[1] + u64::from(*open)];
+        }
+        for (before, now) in self.before.iter().zip(&now) {
+            if let (Some(before), Some(now)) = (before, now) {
+                self.flips = [self.flips[0] + f64::from((before - now).abs()), self.flips[1] + 1.0];
+            }
+        }
+        runs(size, |at| now[at].map(|share| share >= 0.5), &mut self.runs);
+        self.before = now;
+    }
+}
+
+/// Counts neighbours along each axis that are seen differently, and all of which both are seen.
+fn runs([width, height]: [usize; 2], seen: impl Fn(usize) -> Option<bool>, runs: &mut [[f64; 2]; 2]) {
     for y in 0..height {
         for x in 0..width {
             let Some(here) = seen(y * width + x) else { continue };
@@ -221,7 +302,7 @@ mod tests {
         for (coverage, right) in [(stripes(2), true), (stripes(1), false)] {
             let mut measured = Measured::default();
             measured.begin();
-            measured.add(&frame(coverage), Some(&truth), false);
+            measured.add(&frame(coverage), Some(&truth), Asked::default());
             measured.end(&SHOT, &mut metrics);
             assert_eq!(metrics["rmse"] == 0.0 && metrics["rmse_of_mean"] == 0.0, right);
             assert_eq!((metrics["ssim"] - 1.0).abs() < 1e-9, right, "{}", metrics["ssim"]);
@@ -235,10 +316,12 @@ mod tests {
         let mut measured = Measured::default();
         let mut metrics = Metrics::default();
         measured.begin();
-        measured.add(&frame(stripes(2)), None, false);
-        measured.add(&frame(stripes(2).iter().map(|share| 1.0 - share).collect()), None, false);
+        measured.add(&frame(stripes(2)), None, Asked::default());
+        measured.add(&frame(stripes(2).iter().map(|share| 1.0 - share).collect()), None, Asked::default());
         measured.end(&SHOT, &mut metrics);
         assert_eq!(metrics["flips"], 1.0);
+        // Every pixel changes, half of them are covered.
+        assert_eq!(metrics["changed"], 2.0);
         // Seven edges among fifteen neighbours of a row; no edge along a column.
         assert!((metrics["run_x"] - 15.0 / 7.0).abs() < 1e-12);
         assert_eq!(metrics["run_y"], 480.0);

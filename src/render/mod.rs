@@ -13,6 +13,8 @@
 //! | [`survey`], [`auto`] | what is measured of a scene, and effects chosen from it |
 //! | [`adjust`], [`temporal`] | textures before the first frame, pictures after each |
 //! | [`run`], [`truth`] | a frame by a plan, and as it should be |
+//! | [`occlusion`] | rays, and what is in their way |
+//! | [`sub_pixel`] | thresholds of what covers a part of its pixel |
 //! | [`study`], [`metrics`], [`expect`] | all takes of a scene, what is measured, what must come out |
 //! | [`picture`] | images side by side, differences, sequences |
 //! | [`gallery`] | the figures of the sources as scenes |
@@ -32,6 +34,7 @@ pub mod image_file;
 pub mod mesh;
 pub mod metrics;
 mod mistake;
+pub mod occlusion;
 pub mod picture;
 pub mod plan;
 mod plan_shader;
@@ -41,6 +44,7 @@ pub mod rasterise;
 pub mod run;
 pub mod stage;
 pub mod study;
+pub mod sub_pixel;
 pub mod surface;
 pub mod survey;
 pub mod tables;

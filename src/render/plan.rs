@@ -7,12 +7,15 @@ use super::adjust::Scaling;
 use super::cost::Cost;
 use super::effects::{ALL, Effects, Known};
 use super::fragments::{Fragments, Needs};
+use super::occlusion;
 use super::prepare::Scene;
-use super::rasterise::Screen;
+use super::rasterise::{Screen, TILE};
+use super::run;
 use super::stage::{Stage, hashes};
 use super::study::{Shot, shots};
-use super::tables::{Pattern, Space};
+use super::tables::{Chi, Pattern, Space};
 use super::texture::Texture;
+use crate::technique::foveated::Gaze;
 use crate::technique::jitter::camera_jitter;
 use crate::threshold::fixed::FIXED_THRESHOLD;
 use crate::threshold::hashed::HashedAlpha;
@@ -20,6 +23,19 @@ use crate::threshold::robust::Robust;
 use core::num::NonZeroU32;
 use glam::DVec2;
 use rayon::prelude::*;
+
+/// What of a frame costs depend on.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Census {
+    /// Fragments.
+    pub fragments: u64,
+    /// Texels that they read when all are read once.
+    pub texels: u64,
+    /// Pixels of the image.
+    pub pixels: u64,
+    /// Pixels of the places that show a surface; 0 where no stage asks.
+    pub shown: u64,
+}
 
 /// What one take does.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,6 +54,8 @@ pub struct Plan {
     pub samples: u32,
     /// What it needs of textures.
     pub textures: TextureNeeds,
+    /// Where the viewer looks, if that matters.
+    pub gaze: Option<Gaze>,
     /// The number of frames in which the camera moves within a pixel.
     pub jitter: Option<NonZeroU32>,
 }
@@ -66,7 +84,11 @@ pub fn plan(effects: &Effects) -> Plan {
         (Some(_), _) => Some(Scaling::Levels),
         (None, texels) => texels.as_ref().map(|texels| Scaling::Texels(texels.radius)),
     };
-    let mut stages = vec![Stage::Rasterise(places), Stage::SampleAlpha(coarsest)];
+    let gaze = effects.foveated.as_ref().map(super::tables::Foveated::gaze);
+    let mut stages = vec![Stage::Rasterise(places)];
+    stages.extend(effects.conservative.as_ref().map(|_| Stage::Touch));
+    stages.extend(gaze.map(Stage::Foveate));
+    stages.push(Stage::SampleAlpha(coarsest));
     stages.extend(scaling.map(Stage::Scaled));
     let again = stages.clone();
     let coverage = effects.alpha_to_coverage.as_ref();
@@ -86,7 +108,12 @@ pub fn plan(effects: &Effects) -> Plan {
     if !stages.iter().any(|stage| matches!(stage, Stage::Fixed(_) | Stage::LevelThreshold)) {
         stages.push(Stage::Clamp);
     }
-    stages.extend([Stage::Test, Stage::Resolve { divide: effects.premultiplied.is_some() }]);
+    if effects.conservative.as_ref().is_some_and(|conservative| conservative.corrected) {
+        stages.push(Stage::Correct);
+    }
+    stages.push(Stage::Test);
+    stages.extend(effects.occlusion.map(Stage::Occlude));
+    stages.push(Stage::Resolve { divide: effects.premultiplied.is_some() });
     if effects.test_then_blend.is_some() {
         stages.extend(again);
         stages.push(Stage::Blend(
@@ -106,14 +133,16 @@ pub fn plan(effects: &Effects) -> Plan {
     Plan {
         name: effects.name.clone().unwrap_or_else(|| name(effects)),
         needs: Needs {
-            footprint: stages.iter().any(|stage| matches!(stage, Stage::Hash(..))),
+            footprint: stages.iter().any(|stage| matches!(stage, Stage::Hash(..) | Stage::Occlude(_))),
             texture_derivatives: coarsest != Some(0.0) || effects.fade_in.is_some(),
             layer: decorrelated,
             lod: effects.fade_in.is_some(),
             frame: [effects.temporal.is_some(), effects.stochastic.is_some(), decorrelated]
                 .into_iter()
                 .chain([effects.independent.is_some(), effects.jitter.is_some()])
+                .chain(effects.occlusion.map(|occlusion| occlusion.chi == Chi::Random))
                 .any(|reads| reads),
+            coverage: effects.conservative.is_some(),
         },
         textures: TextureNeeds {
             premultiplied: effects.premultiplied.is_some(),
@@ -121,6 +150,7 @@ pub fn plan(effects: &Effects) -> Plan {
             scaling,
         },
         jitter: effects.jitter.as_ref().map(|jitter| jitter.frames),
+        gaze,
         stages,
         space,
         places,
@@ -169,10 +199,10 @@ fn name(effects: &Effects) -> String {
 }
 
 impl Plan {
-    /// Returns what the stages cost in one frame of `pixels` pixels with so many fragments, which read so many texels when
-    /// all are read once.
+    /// Returns what the stages cost in one frame.
     #[must_use]
-    pub fn cost_of_frame(&self, fragments: u64, texels: u64, pixels: u64) -> Cost {
+    pub fn cost_of_frame(&self, census: Census) -> Cost {
+        let Census { fragments, texels, pixels, shown } = census;
         let mut cost = Cost { frames: 1, ..Cost::default() };
         let mut thresholds = fragments;
         for stage in &self.stages {
@@ -194,6 +224,7 @@ impl Plan {
                     }
                 }
                 Stage::Test => cost.tests += thresholds,
+                Stage::Occlude(table) => cost += occlusion::cost(table, shown),
                 Stage::Blend(_) => cost.blends += fragments,
                 Stage::History(_) | Stage::Average(_) => cost.blends += pixels,
                 _ => {}
@@ -202,23 +233,38 @@ impl Plan {
         cost
     }
 
-    /// Predicts what all shots of a scene cost, from the fragments that its geometry makes; nothing is shaded.
+    /// Predicts what all shots of a scene cost, from the fragments that its geometry makes; nothing is shaded. Only rays
+    /// start where the alpha test lets a surface show: a plan with rays is drawn once without them.
     #[must_use]
     pub fn predict(&self, scene: &Scene, textures: &[Texture]) -> Cost {
         let pixels = scene.file.resolution.map(u64::from).iter().product();
+        let tested = self.before_rays();
         let mut cost = Cost::default();
         for shot in shots(scene) {
             for frame in 0..scene.file.frames.get() {
                 let (fragments, texels) = self.census(scene, textures, &shot, frame);
-                cost += self.cost_of_frame(fragments, texels, pixels);
+                let shown = tested.as_ref().map_or(0, |tested| {
+                    let drawn = run::frame(scene, textures, tested, &shot, frame);
+                    drawn.picture.coverage.iter().filter(|&&share| share > 0.0).count() as u64
+                });
+                cost += self.cost_of_frame(Census { fragments, texels, pixels, shown });
             }
         }
         cost
     }
 
+    /// The same at the places within pixels and without rays, if it has any.
+    fn before_rays(&self) -> Option<Self> {
+        let is_ray = |stage: &Stage| matches!(stage, Stage::Occlude(_));
+        let whole = |stage: &&Stage| !is_ray(stage) && !matches!(stage, Stage::Downsample(_));
+        let stages = self.stages.iter().filter(whole).cloned().collect();
+        self.stages.iter().any(is_ray).then(|| Self { stages, ..self.clone() })
+    }
+
     /// Counts the fragments of a frame and the texels that they read.
     fn census(&self, scene: &Scene, textures: &[Texture], shot: &Shot, frame: u32) -> (u64, u64) {
-        let needs = Needs { texture_derivatives: self.needs.texture_derivatives, ..Needs::default() };
+        let Needs { texture_derivatives, coverage, .. } = self.needs;
+        let needs = Needs { texture_derivatives, coverage, ..Needs::default() };
         let camera = shot.camera(scene, frame, self.places);
         let screen =
             Screen::new(&scene.mesh, &camera, f64::from(frame), self.offset(frame), Space::Object, needs);
@@ -226,11 +272,12 @@ impl Plan {
             .into_par_iter()
             .map_init(Fragments::default, |fragments, tile| {
                 screen.fragments(tile, fragments);
+                let (corner, _) = screen.tile(tile);
                 let texels: u64 = (0..fragments.len())
                     .map(|at| {
                         let texture =
                             &textures[scene.mesh.triangles[fragments.triangle[at] as usize].texture as usize];
-                        texture.texels(&self.access(texture, fragments, at))
+                        texture.texels(&self.access(texture, fragments, corner, at))
                     })
                     .sum();
                 (fragments.len() as u64, texels)
@@ -245,15 +292,27 @@ impl Plan {
         DVec2::from(jitter) * f64::from(self.places)
     }
 
-    /// Where a fragment reads its texture.
+    /// Where a fragment of the tile whose upper left pixel is `corner` reads its texture.
     #[must_use]
-    pub fn access(&self, texture: &Texture, fragments: &Fragments, at: usize) -> super::texture::Access {
+    pub fn access(
+        &self,
+        texture: &Texture,
+        fragments: &Fragments,
+        corner: [u32; 2],
+        at: usize,
+    ) -> super::texture::Access {
         let [dtdx, dtdy] = if self.needs.texture_derivatives {
             [fragments.dtdx[at], fragments.dtdy[at]]
         } else {
             [glam::Vec2::ZERO; 2]
         };
         let mut access = texture.access(fragments.texcoord[at], dtdx, dtdy);
+        if let Some(gaze) = &self.gaze {
+            let pixel = u32::from(fragments.pixel[at]);
+            let place = [corner[0] + pixel % TILE, corner[1] + pixel / TILE];
+            let place = place.map(|along| (f64::from(along) + 0.5) / f64::from(self.places));
+            access.lod += gaze.coarser_by(place) as f32;
+        }
         for stage in &self.stages {
             if let Stage::SampleAlpha(Some(coarsest)) = stage {
                 access.lod = access.lod.min(*coarsest);

@@ -4,14 +4,15 @@ use super::plan::Plan;
 use super::stage::Stage;
 use super::tables::{FadeIn, Pattern};
 use crate::shader::assemble::{self, InvalidOption, ShaderOptions, assemble};
+use crate::shader::beside;
 use crate::threshold::batch::Model;
 use crate::threshold::fixed::FIXED_THRESHOLD;
 use crate::threshold::two_scale::Variant;
 use core::num::NonZeroU32;
 
 impl Plan {
-    /// Returns the threshold of the plan as WGSL, made of the chunks of its stages only; `None` where no shader computes
-    /// one, as for independent draws at every sample.
+    /// Returns the threshold of the plan as WGSL, made of the chunks of its stages only, and after it the functions that the
+    /// stages call beside it; `None` where no shader computes the threshold, as for independent draws at every sample.
     ///
     /// # Errors
     ///
@@ -58,7 +59,16 @@ impl Plan {
                 _ => {}
             }
         }
-        assemble(&options).map(Some)
+        let mut text = assemble(&options)?;
+        for stage in &self.stages {
+            match stage {
+                Stage::Foveate(_) => text.push_str(beside::COARSER_BY),
+                Stage::Occlude(_) => text.push_str(beside::COSINE_DIRECTION),
+                Stage::Correct => text.push_str(beside::CORRECTED),
+                _ => {}
+            }
+        }
+        Ok(Some(text))
     }
 }
 

@@ -6,6 +6,7 @@ use super::image_file::{self, ImageError};
 use super::mesh::Mesh;
 use super::texture::{Filter, Level, Texture, Wrap};
 use std::path::Path;
+use std::sync::OnceLock;
 
 /// A scene that is ready to be drawn.
 #[derive(Clone, Debug)]
@@ -15,6 +16,8 @@ pub struct Scene {
     /// Every triangle.
     pub mesh: Mesh,
     covers: Vec<Cover>,
+    /// Found when it is first asked for.
+    parts: OnceLock<Vec<u32>>,
 }
 
 /// A texture before its mip chain is built.
@@ -63,10 +66,16 @@ pub fn prepare(file: SceneFile, folder: &Path) -> Result<Scene, AssetError> {
         }
         surface.build(&mut mesh, index as u32, named.unwrap_or(0) as u32, file.seed);
     }
-    Ok(Scene { file, mesh, covers })
+    Ok(Scene { file, mesh, covers, parts: OnceLock::new() })
 }
 
 impl Scene {
+    /// Returns for each triangle the part that it belongs to, see [`Mesh::parts`].
+    #[must_use]
+    pub fn parts(&self) -> &[u32] {
+        self.parts.get_or_init(|| self.mesh.parts())
+    }
+
     /// Builds the mip chains; colours are multiplied by alpha where `premultiplied`.
     #[must_use]
     pub fn textures(&self, premultiplied: bool) -> Vec<Texture> {

@@ -1,12 +1,15 @@
 //! Triangles to fragments: perspective-correct attributes with analytic screen derivatives, tile by tile.
 //!
 //! Which pixels a triangle covers is decided on corners that are rounded to 1/256 of a pixel, as hardware does, so that
-//! triangles which share an edge share no pixel and leave none out. Attributes are those of the exact corners.
+//! triangles which share an edge share no pixel and leave none out. Attributes are those of the exact corners. Where the
+//! covered share of pixels is needed, every pixel that an exact triangle touches is drawn, with the attributes in the middle
+//! of what is covered.
 
 use super::fragments::{Fragments, Needs};
 use super::mesh::{Mesh, Triangle};
 use super::tables::Space;
 use crate::scene::Camera;
+use crate::technique::conservative::covered;
 use glam::{DVec2, DVec3, dvec2, dvec3, vec2};
 use rayon::prelude::*;
 
@@ -25,14 +28,23 @@ type Plane = DVec3;
 struct Projected {
     /// First and last pixel that it may cover, along each axis.
     bounds: [[u32; 2]; 2],
-    /// Signed distances from its edges, positive inside; and whether a pixel on the edge belongs to it.
-    edges: [(Plane, bool); 3],
+    shape: Shape,
     inverse_depth: Plane,
     /// Texture coordinate over depth.
     texcoord: [Plane; 2],
     /// What is hashed, over depth.
     place: [Plane; 3],
     triangle: u32,
+}
+
+/// Which pixels a triangle covers.
+#[derive(Clone, Debug)]
+enum Shape {
+    /// Those whose centre is inside: signed distances from the edges, positive inside; and whether a pixel on the edge
+    /// belongs to it.
+    Edges([(Plane, bool); 3]),
+    /// Those that it touches: its corners.
+    Outline([DVec2; 3]),
 }
 
 /// A corner after projection.
@@ -67,7 +79,7 @@ impl Screen {
                 let polygon = cut_near(corners, near);
                 let fan = (2..polygon.len()).filter_map(|last| {
                     let corners = [polygon[0], polygon[last - 1], polygon[last]];
-                    project(&corners, camera, offset, index as u32)
+                    project(&corners, camera, offset, index as u32, needs.coverage)
                 });
                 (fan.collect(), shade)
             })
@@ -119,10 +131,12 @@ impl Screen {
             });
             for y in rows {
                 for x in columns.clone() {
-                    let centre = dvec3(f64::from(x) + 0.5, f64::from(y) + 0.5, 1.0);
-                    if triangle.covers(centre) {
+                    if let Some((share, place)) = triangle.covers([x, y]) {
                         let pixel = (y - corner[1]) * TILE + (x - corner[0]);
-                        self.add(triangle, pixel as u16, centre, out);
+                        self.add(triangle, pixel as u16, place.extend(1.0), out);
+                        if self.needs.coverage {
+                            out.coverage.push(share);
+                        }
                     }
                 }
             }
@@ -179,11 +193,22 @@ impl Screen {
 }
 
 impl Projected {
-    fn covers(&self, centre: DVec3) -> bool {
-        self.edges.iter().all(|(edge, inclusive)| {
-            let inside = edge.dot(centre);
-            inside > 0.0 || (inside == 0.0 && *inclusive)
-        })
+    /// The share of a pixel that counts as covered and the place in it that is shaded; `None` for a pixel without fragment.
+    fn covers(&self, [x, y]: [u32; 2]) -> Option<(f64, DVec2)> {
+        let corner = dvec2(f64::from(x), f64::from(y));
+        match &self.shape {
+            Shape::Edges(edges) => {
+                let centre = corner + 0.5;
+                let inside = edges.iter().all(|(edge, inclusive)| {
+                    let inside = edge.dot(centre.extend(1.0));
+                    inside > 0.0 || (inside == 0.0 && *inclusive)
+                });
+                inside.then_some((1.0, centre))
+            }
+            Shape::Outline(corners) => {
+                covered(corners, [x as i32, y as i32]).map(|(share, middle)| (share, corner + middle))
+            }
+        }
     }
 }
 
@@ -251,7 +276,13 @@ fn edge(from: DVec2, to: DVec2) -> Plane {
 }
 
 /// `None` for a triangle that covers no pixel.
-fn project(corners: &[Corner; 3], camera: &Camera, offset: DVec2, triangle: u32) -> Option<Projected> {
+fn project(
+    corners: &[Corner; 3],
+    camera: &Camera,
+    offset: DVec2,
+    triangle: u32,
+    touches: bool,
+) -> Option<Projected> {
     let pixels = 1.0 / camera.direction_dx.length();
     let rows = 1.0 / camera.direction_dy.length();
     let mut corners = *corners;
@@ -261,7 +292,7 @@ fn project(corners: &[Corner; 3], camera: &Camera, offset: DVec2, triangle: u32)
     };
     let area = |[a, b, c]: [DVec2; 3]| edge(a, b).dot(c.extend(1.0));
     let mut exact = corners.each_ref().map(place);
-    let mut rounded = exact.map(|corner| (corner * 256.0).round() / 256.0);
+    let mut rounded = if touches { exact } else { exact.map(|corner| (corner * 256.0).round() / 256.0) };
     if area(rounded) < 0.0 {
         corners.swap(1, 2);
         exact.swap(1, 2);
@@ -275,8 +306,13 @@ fn project(corners: &[Corner; 3], camera: &Camera, offset: DVec2, triangle: u32)
         let low = rounded.iter().map(|corner| corner[axis]).fold(f64::INFINITY, f64::min);
         let high = rounded.iter().map(|corner| corner[axis]).fold(f64::NEG_INFINITY, f64::max);
         let last = f64::from(camera.resolution[axis]) - 1.0;
-        // Pixels whose centre may be inside.
-        [(low - 0.5).ceil().max(0.0), (high - 0.5).floor().min(last)]
+        // Pixels that may be touched, or whose centre may be inside.
+        let [first, end] = if touches {
+            [low.floor(), high.ceil() - 1.0]
+        } else {
+            [(low - 0.5).ceil(), (high - 0.5).floor()]
+        };
+        [first.max(0.0), end.min(last)]
     });
     if bounds.iter().any(|[first, last]| first > last) {
         return None;
@@ -293,7 +329,7 @@ fn project(corners: &[Corner; 3], camera: &Camera, offset: DVec2, triangle: u32)
     };
     Some(Projected {
         bounds: bounds.map(|ends| ends.map(|pixel| pixel as u32)),
-        edges,
+        shape: if touches { Shape::Outline(exact) } else { Shape::Edges(edges) },
         inverse_depth: plane(&|_| 1.0),
         texcoord: [plane(&|corner| corner.texcoord.x), plane(&|corner| corner.texcoord.y)],
         place: [
@@ -312,8 +348,14 @@ mod tests {
     use crate::scene::Rectangle;
     use glam::{DAffine3, Vec3};
 
-    const ALL: Needs =
-        Needs { footprint: true, texture_derivatives: true, layer: true, lod: true, frame: true };
+    const ALL: Needs = Needs {
+        footprint: true,
+        texture_derivatives: true,
+        layer: true,
+        lod: true,
+        frame: true,
+        coverage: false,
+    };
 
     fn tilted() -> (Camera, Rectangle, Mesh) {
         let camera = Camera::look_at(dvec3(0.3, -0.2, 4.0), DVec3::ZERO, DVec3::Y, 0.4, [70, 50]);
@@ -402,6 +444,44 @@ mod tests {
             assert_eq!(fragments.len(), (size[0] * size[1]) as usize);
             assert!(fragments.footprint.position[0].is_empty() && fragments.dtdx.is_empty());
         }
+    }
+
+    /// Every pixel gets the area that a fine grid of centres finds, and no pixel more than its own.
+    #[test]
+    fn touched_pixels_have_the_area_of_the_card() {
+        let (camera, _, mesh) = tilted();
+        let areas = |camera: &Camera, needs: Needs| {
+            let screen = Screen::new(&mesh, camera, 0.0, DVec2::ZERO, Space::Object, needs);
+            let (mut fragments, size) = (Fragments::default(), camera.resolution);
+            let mut areas = vec![0.0; (size[0] * size[1]) as usize];
+            for tile in 0..screen.tiles() {
+                screen.fragments(tile, &mut fragments);
+                let (corner, _) = screen.tile(tile);
+                for at in 0..fragments.len() {
+                    let pixel = u32::from(fragments.pixel[at]);
+                    let place = (corner[1] + pixel / TILE) * size[0] + corner[0] + pixel % TILE;
+                    areas[place as usize] += fragments.coverage.get(at).unwrap_or(&1.0);
+                }
+            }
+            areas
+        };
+        let touched = areas(&camera, Needs { coverage: true, ..Needs::default() });
+        let fine = Camera {
+            direction_dx: camera.direction_dx / 32.0,
+            direction_dy: camera.direction_dy / 32.0,
+            resolution: camera.resolution.map(|side| 32 * side),
+            ..camera
+        };
+        let centres = areas(&fine, Needs::default());
+        let mut partial = 0;
+        for (at, &area) in touched.iter().enumerate() {
+            let [x, y] = [at % 70, at / 70];
+            let rows = (32 * y..32 * y + 32).map(|row| &centres[row * 32 * 70 + 32 * x..][..32]);
+            let wanted = rows.flatten().sum::<f64>() / 1024.0;
+            assert!((area - wanted).abs() < 0.03 && area < 1.0 + 1e-12, "{x} {y}: {area} {wanted}");
+            partial += u32::from(area > 0.0 && area < 1.0 - 1e-12);
+        }
+        assert!(partial > 50, "{partial}");
     }
 
     #[test]

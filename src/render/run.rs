@@ -2,14 +2,17 @@
 
 use super::cost::Cost;
 use super::fragments::Fragments;
+use super::occlusion::{self, Occluders};
 use super::picture::{LEAF, Picture, SKY};
 use super::plan::Plan;
 use super::prepare::Scene;
 use super::rasterise::{Screen, TILE};
 use super::stage::{Stage, hashes};
 use super::study::Shot;
-use super::tables::{FadeIn, Pattern};
+use super::sub_pixel;
+use super::tables::{FadeIn, Occlusion, Pattern};
 use super::texture::{Access, Texture};
+use crate::scene::Camera;
 use crate::technique::blend_towards::blend_towards;
 use crate::technique::independent::by_offset;
 use crate::technique::order::Order;
@@ -24,6 +27,7 @@ use crate::threshold::hashed::HashedAlpha;
 use crate::threshold::robust::Robust;
 use crate::threshold::stochastic;
 use core::num::NonZeroU32;
+use glam::DVec2;
 use rand::SeedableRng;
 use rand::rngs::Xoshiro256PlusPlus;
 use rayon::prelude::*;
@@ -39,6 +43,8 @@ pub struct Frame {
     pub cost: Cost,
     /// What the first two layers have in common; zeros unless asked for.
     pub layers: LayerSums,
+    /// For each pixel the number of its rays and of those that are open; empty without occlusion.
+    pub rays: Vec<[u16; 2]>,
 }
 
 /// Sums over the pixels in which two layers or more have an alpha between 0 and 1, the first two by distance.
@@ -60,6 +66,7 @@ struct TileResult {
     touched: Vec<bool>,
     cost: Cost,
     layers: LayerSums,
+    rays: Vec<[u16; 2]>,
 }
 
 /// Columns beside those of the fragments, kept from tile to tile for their room.
@@ -80,7 +87,9 @@ pub fn frame(scene: &Scene, textures: &[Texture], plan: &Plan, shot: &Shot, inde
     let camera = shot.camera(scene, index, plan.places);
     let screen =
         Screen::new(&scene.mesh, &camera, f64::from(index), plan.offset(index), plan.space, plan.needs);
-    let draw = Draw { scene, textures, plan, screen: &screen, frame: index };
+    let is_ray = |stage: &Stage| matches!(stage, Stage::Occlude(_));
+    let occluders = plan.stages.iter().any(is_ray).then(|| Occluders::new(&scene.mesh, f64::from(index)));
+    let draw = Draw { scene, textures, plan, screen: &screen, frame: index, camera: &camera, occluders };
     let tiles: Vec<TileResult> = (0..screen.tiles())
         .into_par_iter()
         .map_init(Work::default, |work, tile| draw.tile(work, tile))
@@ -90,6 +99,7 @@ pub fn frame(scene: &Scene, textures: &[Texture], plan: &Plan, shot: &Shot, inde
     let passes = plan.stages.iter().filter(|stage| matches!(stage, Stage::Rasterise(_))).count() as u64;
     let mut cost = Cost { frames: 1, passes, ..Cost::default() };
     let mut layers = LayerSums::default();
+    let mut rays = vec![[0; 2]; if draw.occluders.is_some() { touched.len() } else { 0 }];
     for (tile, result) in tiles.iter().enumerate() {
         cost += result.cost;
         layers.covariance += result.layers.covariance;
@@ -101,6 +111,9 @@ pub fn frame(scene: &Scene, textures: &[Texture], plan: &Plan, shot: &Shot, inde
             picture.colour[row(to)].copy_from_slice(&result.colour[row(from)]);
             picture.coverage[row(to)].copy_from_slice(&result.coverage[row(from)]);
             touched[row(to)].copy_from_slice(&result.touched[row(from)]);
+            if !rays.is_empty() {
+                rays[row(to)].copy_from_slice(&result.rays[row(from)]);
+            }
         }
     }
     for stage in &plan.stages {
@@ -110,9 +123,18 @@ pub fn frame(scene: &Scene, textures: &[Texture], plan: &Plan, shot: &Shot, inde
             touched = (0..picture.coverage.len() as u32)
                 .map(|at| touched[((at / across * camera.resolution[0] + at % across) * side) as usize])
                 .collect();
+            if !rays.is_empty() {
+                let mut sums = vec![[0; 2]; touched.len()];
+                for (at, of_place) in (0_u32..).zip(&rays) {
+                    let [x, y] = [at % camera.resolution[0], at / camera.resolution[0]].map(|p| p / side);
+                    let sum = &mut sums[(y * across + x) as usize];
+                    *sum = [sum[0] + of_place[0], sum[1] + of_place[1]];
+                }
+                rays = sums;
+            }
         }
     }
-    Frame { picture, touched, cost, layers }
+    Frame { picture, touched, cost, layers, rays }
 }
 
 /// What all tiles of a frame share.
@@ -122,6 +144,9 @@ struct Draw<'a> {
     plan: &'a Plan,
     screen: &'a Screen,
     frame: u32,
+    camera: &'a Camera,
+    /// What rays may hit, if there are any.
+    occluders: Option<Occluders>,
 }
 
 impl Draw<'_> {
@@ -136,7 +161,11 @@ impl Draw<'_> {
             touched: vec![false; PIXELS],
             cost: Cost::default(),
             layers: LayerSums::default(),
+            rays: Vec::new(),
         };
+        if self.occluders.is_some() {
+            result.rays = vec![[0; 2]; PIXELS];
+        }
         // The numbers of a tile are its own, so that the order in which tiles are drawn does not matter.
         let seed = self.scene.file.seed ^ (u64::from(self.frame) << 32) ^ ((tile as u64) << 8);
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
@@ -152,7 +181,7 @@ impl Draw<'_> {
                         return result;
                     }
                 }
-                Stage::SampleAlpha(_) => self.sample(work, &mut result.cost),
+                Stage::SampleAlpha(_) => self.sample(work, tile, &mut result.cost),
                 Stage::Fixed(threshold) => {
                     work.threshold.clear();
                     work.threshold.resize(work.fragments.len(), *threshold);
@@ -178,18 +207,24 @@ impl Draw<'_> {
                     self.cover(work, tile, *samples, *pattern, &mut rng, &mut result.cost);
                 }
                 Stage::FadeIn(table) => self.fade(work, table),
+                Stage::Correct => {
+                    let samples = self.plan.samples as usize;
+                    sub_pixel::correct(&work.fragments, self.scene.parts(), samples, &mut work.threshold);
+                }
                 Stage::Clamp => work.threshold.iter_mut().for_each(|t| *t = clamp_last(*t)),
                 Stage::Test => {
                     test(work, self.plan.samples as usize);
                     result.cost.tests += work.threshold.len() as u64;
                 }
+                Stage::Occlude(table) => self.occlude(work, tile, table, &mut rng, &mut result),
                 Stage::Resolve { divide } => self.resolve(work, *divide, &mut result),
                 Stage::Blend(threshold) => {
                     self.blend(work, *threshold, &mut result);
                     result.cost.blends += work.fragments.len() as u64;
                 }
-                // The first is done beforehand, the second by the hash, the others on whole pictures.
-                Stage::Scaled(_) | Stage::Independent(_) => {}
+                // The first is done beforehand, the second by the hash, the third when fragments are made, the fourth when
+                // texels are read, the others on whole pictures.
+                Stage::Scaled(_) | Stage::Independent(_) | Stage::Touch | Stage::Foveate(_) => {}
                 Stage::Downsample(_) | Stage::History(_) | Stage::Average(_) => {}
             }
         }
@@ -199,12 +234,13 @@ impl Draw<'_> {
         result
     }
 
-    fn sample(&self, work: &mut Work, cost: &mut Cost) {
+    fn sample(&self, work: &mut Work, tile: usize, cost: &mut Cost) {
+        let (corner, _) = self.screen.tile(tile);
         work.access.clear();
         work.alpha.clear();
         for at in 0..work.fragments.len() {
             let texture = self.texture(work.fragments.triangle[at]);
-            let access = self.plan.access(texture, &work.fragments, at);
+            let access = self.plan.access(texture, &work.fragments, corner, at);
             work.alpha.push(texture.alpha(&access, &mut cost.texels));
             work.access.push(access);
         }
@@ -309,6 +345,38 @@ impl Draw<'_> {
         }
     }
 
+    /// Traces the ray of every pixel that shows a surface, from the nearest.
+    fn occlude(
+        &self,
+        work: &Work,
+        tile: usize,
+        table: &Occlusion,
+        rng: &mut Xoshiro256PlusPlus,
+        result: &mut TileResult,
+    ) {
+        let Some(occluders) = &self.occluders else { return };
+        let mut nearest = vec![NONE; PIXELS];
+        for at in (0..work.fragments.len()).filter(|&at| work.kept[at] != 0) {
+            let held = &mut nearest[usize::from(work.fragments.pixel[at])];
+            if *held == NONE || work.fragments.depth[at] < work.fragments.depth[*held as usize] {
+                *held = at as u32;
+            }
+        }
+        let ([left, top], _) = self.screen.tile(tile);
+        let columns = work.fragments.footprint.columns();
+        for (pixel, &at) in (0_u32..).zip(&nearest).filter(|(_, at)| **at != NONE) {
+            let at = at as usize;
+            let corner = [left + pixel % TILE, top + pixel / TILE].map(f64::from);
+            let ray = self.camera.ray(DVec2::from(corner) + 0.5 - self.plan.offset(self.frame));
+            let point = ray.origin + ray.direction * f64::from(work.fragments.depth[at]);
+            let chi = occlusion::chi(table, &columns.footprint(at), rng);
+            let triangle = work.fragments.triangle[at];
+            let is_open = occluders.is_open(triangle, point, self.camera.eye, chi, table.reach);
+            result.rays[pixel as usize] = [1, u16::from(is_open)];
+            result.cost += occlusion::cost(table, 1);
+        }
+    }
+
     fn resolve(&self, work: &Work, divide: bool, result: &mut TileResult) {
         let samples = self.plan.samples as usize;
         let mut nearest = vec![NONE; PIXELS * samples];
@@ -328,13 +396,15 @@ impl Draw<'_> {
             if covered == 0 {
                 continue;
             }
+            // Surfaces have the light that their ray finds, all of it without one.
+            let light = result.rays.get(pixel).map_or(1.0, |[_, open]| f32::from(*open));
             let mut colour = SKY.map(|c| c * (samples - covered) as f32);
             let mut last = (NONE, [0.0; 3]);
             for &at in held.iter().filter(|&&at| at != NONE) {
                 if at != last.0 {
                     last = (at, self.colour(work, at as usize, divide));
                 }
-                colour = [0, 1, 2].map(|c| colour[c] + last.1[c]);
+                colour = [0, 1, 2].map(|c| colour[c] + light * last.1[c]);
             }
             result.colour[pixel] = colour.map(|sum| sum * share);
             result.coverage[pixel] = covered as f32 * share;
@@ -401,7 +471,11 @@ fn layer_sums(work: &Work, samples: u32) -> LayerSums {
     }
     let mut sums = LayerSums::default();
     for pair in first.iter().filter(|pair| pair[1] != NONE) {
-        let alphas = pair.map(|at| f64::from(work.alpha[at as usize]));
+        let alphas = pair.map(|at| {
+            // What a fragment covers in the mean, if it covers a part of its pixel only.
+            let share = work.fragments.coverage.get(at as usize).unwrap_or(&1.0);
+            share * f64::from(work.alpha[at as usize])
+        });
         if alphas.iter().any(|alpha| !(0.01..=0.99).contains(alpha)) {
             continue;
         }

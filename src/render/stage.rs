@@ -1,7 +1,8 @@
 //! The stages of which plans are made.
 
 use super::adjust::Scaling;
-use super::tables::{FadeIn, History, Pattern, Space};
+use super::tables::{FadeIn, History, Occlusion, Pattern, Space};
+use crate::technique::foveated::Gaze;
 use crate::technique::order::Order;
 use crate::threshold::batch::Model;
 use crate::threshold::robust::Join;
@@ -13,6 +14,10 @@ use core::num::NonZeroU32;
 pub enum Stage {
     /// Triangles to fragments, at so many places along each side of a pixel.
     Rasterise(u32),
+    /// The same for every pixel that a triangle touches.
+    Touch,
+    /// Coarser levels away from a point of the image.
+    Foveate(Gaze),
     /// Filtered alpha, from no level coarser than the given one if any.
     SampleAlpha(Option<f32>),
     /// Alphas as they were scaled beforehand.
@@ -35,8 +40,12 @@ pub enum Stage {
     FadeIn(FadeIn),
     /// The range (0, 1], after all that changes thresholds.
     Clamp,
+    /// Thresholds over the share of the pixel that the surface covers.
+    Correct,
     /// Alpha against threshold.
     Test,
+    /// One ray from the nearest fragment that is kept.
+    Occlude(Occlusion),
     /// The nearest fragment that is kept, at each sample; its colour, divided by alpha where that was multiplied in.
     Resolve {
         /// Whether colours are divided by alpha.
@@ -62,6 +71,9 @@ impl Stage {
             Self::Rasterise(_) | Self::Downsample(_) => Some("supersampling"),
             Self::SampleAlpha(Some(level)) if *level <= 0.0 => Some("finest_level"),
             Self::SampleAlpha(Some(_)) => Some("limited_level"),
+            Self::Touch | Self::Correct => Some("conservative"),
+            Self::Foveate(_) => Some("foveated"),
+            Self::Occlude(_) => Some("occlusion"),
             // The plain alpha test is what a plan has without any table.
             Self::Fixed(0.5) => None,
             Self::Fixed(_) => Some("fixed"),
@@ -90,6 +102,16 @@ impl Stage {
             Self::Rasterise(side) => {
                 format!("rasterise: fragments of every surface, {side} x {side} a pixel")
             }
+            Self::Touch => "rasterise: every pixel that a triangle touches".to_owned(),
+            Self::Foveate(Gaze { centre: [x, y], radius, slope }) => format!(
+                "foveate: samples of 1 px within {radius} px of ({x}, {y}), beyond that {slope} px more a pixel"
+            ),
+            Self::Occlude(Occlusion { reach, chi, variant }) => format!(
+                "occlude: one ray from the nearest that is kept, up to {reach} units, {} by the {variant} listing; \
+                 triangles are solid to it",
+                chi.name()
+            ),
+            Self::Correct => "correct: thresholds over the share of the pixel, those above 1 too".to_owned(),
             Self::SampleAlpha(None) => "sample alpha: at the level of the footprint".to_owned(),
             Self::SampleAlpha(Some(level)) => format!("sample alpha: no coarser than level {level}"),
             Self::Fixed(threshold) => format!("threshold: {threshold} for all"),

@@ -5,7 +5,7 @@ use super::cost::Cost;
 use super::effects::Effects;
 use super::expect::{Checked, check};
 use super::file::{Inset, Takes};
-use super::metrics::{Measured, Metrics};
+use super::metrics::{Asked, Measured, Metrics};
 use super::picture::Picture;
 use super::plan::{Plan, TextureNeeds, plan};
 use super::prepare::Scene;
@@ -243,7 +243,7 @@ impl Take {
             1 if is_first_shot => self.second = Some(frame.picture.clone()),
             _ => {}
         }
-        measured.add(&frame, truth, scene.file.layers.is_some());
+        measured.add(&frame, truth, Asked { layers: scene.file.layers.is_some(), gaze: self.plan.gaze });
     }
 
     fn finish(mut self, measured: &Measured) -> Self {

@@ -1,5 +1,6 @@
 //! The tables of effects as a scene file has them, one struct each.
 
+use crate::technique::foveated::Gaze;
 use crate::technique::order::Order;
 use crate::threshold::cdf::CdfForm;
 use crate::threshold::hash::HashKind;
@@ -237,6 +238,88 @@ pub struct FadeIn {
 pub struct Average {
     /// Number of frames that are averaged.
     pub frames: NonZeroU32,
+}
+
+/// Every pixel that a surface touches.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Conservative {
+    /// Whether thresholds are divided by the share of the pixel that the surface covers; without, surfaces grow by half a
+    /// pixel on every side.
+    #[serde(default = "yes")]
+    pub corrected: bool,
+}
+
+/// Coarser levels away from where the viewer looks.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Foveated {
+    /// The point looked at, in pixels from the upper left corner of the image.
+    pub gaze: [f64; 2],
+    /// Up to this distance everything is drawn in full, in pixels, at least 0.
+    pub radius: f64,
+    /// Growth of the size of a shaded sample beyond the radius, in pixels a pixel, at least 0.
+    pub slope: f64,
+}
+
+impl Foveated {
+    /// Returns where the viewer looks, in pixels of the image.
+    #[must_use]
+    pub const fn gaze(&self) -> Gaze {
+        Gaze { centre: self.gaze, radius: self.radius, slope: self.slope }
+    }
+}
+
+/// One ray a pixel into the open.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Occlusion {
+    /// How far something may be in the way, in object units, above 0.
+    pub reach: f64,
+    /// Where the two numbers of a ray come from.
+    #[serde(default)]
+    pub chi: Chi,
+    /// How the scales of what is hashed are chosen from derivatives: isotropic or anisotropic.
+    #[serde(default = "isotropic", deserialize_with = "by_name")]
+    pub variant: Variant,
+}
+
+/// The two numbers of a ray (§9).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Chi {
+    /// Two hashes of one cell, by the listing.
+    #[default]
+    TwoHashes,
+    /// One hash of two cells far apart, by the listing.
+    Offsets,
+    /// The robust threshold, twice by a word of its hash; not in the paper.
+    Word,
+    /// An ordinary generator, seeded by the coarse cell of the listing.
+    Seeded,
+    /// Fresh random numbers in every pixel and frame: what hashing is compared with.
+    Random,
+}
+
+impl Chi {
+    /// Every way to choose, the paper's first.
+    pub const ALL: [Self; 5] = [Self::TwoHashes, Self::Offsets, Self::Word, Self::Seeded, Self::Random];
+
+    /// The name by which a user asks for it.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::TwoHashes => "two-hashes",
+            Self::Offsets => "offsets",
+            Self::Word => "word",
+            Self::Seeded => "seeded",
+            Self::Random => "random",
+        }
+    }
+}
+
+fn yes() -> bool {
+    true
 }
 
 fn alternating() -> Order {

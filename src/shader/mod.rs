@@ -3,6 +3,7 @@
 //! What never lives here: claims, statistics, printing.
 
 pub mod assemble;
+pub mod beside;
 pub mod export;
 #[cfg(feature = "gpu")]
 pub mod gpu;

@@ -1,6 +1,7 @@
 //! Cards smaller than a pixel: conservative coverage with a corrected threshold (§2, Fig. 4).
 
 use crate::threshold::real::Real;
+use glam::{DVec2, dvec2};
 
 /// A rectangle on the screen, in pixels: `[left, top, right, bottom]`.
 pub type Rectangle = [f64; 4];
@@ -14,6 +15,47 @@ pub fn sub_pixel_coverage([left, top, right, bottom]: Rectangle, [x, y]: [i32; 2
         (to.min(f64::from(pixel) + 1.0) - from.max(f64::from(pixel))).max(0.0)
     };
     overlap(left, right, x) * overlap(top, bottom, y)
+}
+
+/// Returns the area of a pixel that a convex polygon covers, in (0, 1], and the middle of what it covers there, in pixels
+/// from the pixel's upper left corner; `None` where it covers nothing. Corners are in pixels and in turn around the
+/// polygon, either way. Not in the paper.
+///
+/// Attributes of a surface are read at that middle: the centre of the pixel may lie outside.
+#[must_use]
+pub fn covered(polygon: &[DVec2], [x, y]: [i32; 2]) -> Option<(f64, DVec2)> {
+    let corner = dvec2(f64::from(x), f64::from(y));
+    let mut part: Vec<DVec2> = polygon.iter().map(|&point| point - corner).collect();
+    for (axis, limit, inwards) in [(0, 0.0, 1.0), (0, 1.0, -1.0), (1, 0.0, 1.0), (1, 1.0, -1.0)] {
+        part = cut(&part, axis, limit, inwards);
+    }
+    let first = *part.first()?;
+    let (mut area, mut moment) = (0.0, DVec2::ZERO);
+    for pair in part.windows(2).skip(1) {
+        let [a, b] = [pair[0] - first, pair[1] - first];
+        let twice = a.perp_dot(b);
+        area += twice;
+        moment += twice * (a + b);
+    }
+    (area != 0.0).then(|| (0.5 * area.abs(), first + moment / (3.0 * area)))
+}
+
+/// The part of a convex polygon on one side of a line of constant x or y; what lies on the line is exact.
+fn cut(polygon: &[DVec2], axis: usize, limit: f64, inwards: f64) -> Vec<DVec2> {
+    let depth = |point: DVec2| inwards * (point[axis] - limit);
+    let mut kept = Vec::with_capacity(polygon.len() + 1);
+    for (index, &here) in polygon.iter().enumerate() {
+        let next = polygon[(index + 1) % polygon.len()];
+        if depth(here) >= 0.0 {
+            kept.push(here);
+        }
+        if (depth(here) > 0.0 && depth(next) < 0.0) || (depth(here) < 0.0 && depth(next) > 0.0) {
+            let mut crossing = here.lerp(next, depth(here) / (depth(here) - depth(next)));
+            crossing[axis] = limit;
+            kept.push(crossing);
+        }
+    }
+    kept
 }
 
 /// Returns whether the centre of a pixel lies in a rectangle, its left and top edges counted in: what a rasteriser
@@ -84,6 +126,31 @@ mod tests {
     fn centres_miss_most_small_cards_but_not_their_mean_area() {
         let (area, lost) = drawn(0.3, 1.0, |card, pixel, _| covers_centre(card, pixel));
         assert!((area - 0.09).abs() < 0.02 && lost > 0.85, "{area} {lost}");
+    }
+
+    /// A turned square of area one half and its mirror image, the rectangles above, and what lies beside.
+    #[test]
+    fn polygons_cover_what_rectangles_do_and_more() {
+        for i in 0..500 {
+            let [left, top, width, height] = [0, 1, 2, 3].map(|which| 3.0 * value(i, which));
+            let polygon = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]
+                .map(|[u, v]: [f64; 2]| dvec2(left + u * width, top + v * height));
+            for pixel in (0..36).map(|i| [i % 6, i / 6]) {
+                let wanted = sub_pixel_coverage([left, top, left + width, top + height], pixel);
+                let found = covered(&polygon, pixel).map_or(0.0, |(area, _)| area);
+                assert!((found - wanted).abs() < 1e-12, "{pixel:?}: {found} {wanted}");
+            }
+        }
+        let mut turned = [dvec2(2.5, 3.0), dvec2(3.0, 3.5), dvec2(2.5, 4.0), dvec2(2.0, 3.5)];
+        for _ in 0..2 {
+            let (area, middle) = covered(&turned, [2, 3]).unwrap();
+            assert!((area - 0.5).abs() < 1e-15 && (middle - 0.5).length() < 1e-15);
+            assert_eq!(covered(&turned, [3, 3]), None);
+            turned.reverse();
+        }
+        // A large card covers the pixels within it exactly, so that alpha 1 leaves no hole.
+        let large = [dvec2(-31.7, -200.1), dvec2(90.3, -11.9), dvec2(77.7, 99.1), dvec2(-55.3, 83.3)];
+        assert_eq!(covered(&large, [7, 11]), Some((1.0, dvec2(0.5, 0.5))));
     }
 
     #[test]

@@ -14,6 +14,12 @@ pub struct Gaze {
 }
 
 impl Gaze {
+    /// Returns whether a pixel lies within the radius, where everything is drawn in full.
+    #[must_use]
+    pub fn is_near(&self, [x, y]: [f64; 2]) -> bool {
+        libm::hypot(x - self.centre[0], y - self.centre[1]) <= self.radius
+    }
+
     /// Returns the size of a shaded sample at a pixel, in pixels, at least 1: `1 + slope max(0, distance - radius)`.
     #[must_use]
     pub fn sample_size(&self, [x, y]: [f64; 2]) -> f64 {
@@ -45,6 +51,7 @@ mod tests {
     #[test]
     fn detail_is_full_in_the_circle_and_falls_off_outside() {
         assert_eq!(GAZE.coarser_by([400.0, 300.0]), 0.0);
+        assert!(GAZE.is_near([400.0, 399.0]) && !GAZE.is_near([400.0, 401.0]));
         assert_eq!(GAZE.coarser_by([400.0, 399.0]), 0.0);
         assert_eq!(GAZE.sample_size([520.0, 300.0]), 2.0);
         assert_eq!(GAZE.coarser_by([700.0, 300.0]), libm::log2(11.0));
