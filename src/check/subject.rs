@@ -1,6 +1,7 @@
 //! Anything that turns footprints into thresholds.
 
 use crate::scene::Fragment;
+use crate::threshold::batch::{BLOCK, Batch, ColumnBuffer, Lane, Model};
 use crate::threshold::footprint::Footprint;
 use crate::threshold::hash::{Hash, HashKind};
 use crate::threshold::hashed::HashedAlpha;
@@ -62,7 +63,15 @@ type AllAtOnce<'a> = Box<dyn Fn(&[Fragment]) -> Result<Vec<f64>, String> + Send 
 enum Evaluation<'a> {
     OneByOne(OneByOne<'a>),
     AllAtOnce(AllAtOnce<'a>),
+    /// In vector instructions, with the bits of one by one.
+    Batch(Model),
 }
+
+/// Fewer fragments than this are evaluated one by one: a batch fills a block of [`BLOCK`] in any case.
+const WORTH_A_BATCH: usize = BLOCK / 8;
+
+/// Fragments of which a thread evaluates a batch.
+const BATCH: usize = 16 * BLOCK;
 
 /// A threshold on trial.
 pub struct Subject<'a> {
@@ -245,6 +254,19 @@ impl<'a> Subject<'a> {
         }
     }
 
+    /// Puts a threshold on trial whose hash was chosen by name, as [`Subject::hashed`] and [`Subject::robust`] do with the
+    /// same bits, in vector instructions: checking it takes longer than evaluating it.
+    #[must_use]
+    pub fn of_model(name: impl Into<String>, precision: Precision, model: impl Into<Model>) -> Self {
+        let model = model.into();
+        let described = match model {
+            Model::Hashed(hashed) => Self::hashed(name, precision, hashed),
+            Model::BeforeCdf(hashed) => Self { interpolated: None, ..Self::hashed(name, precision, hashed) },
+            Model::Robust(robust) => Self::robust(name, precision, robust),
+        };
+        Self { threshold: Evaluation::Batch(model), ..described }
+    }
+
     /// Spreads the thresholds over `n` frames: frame i has stratum i of the alternating order, each of width 1 / n. Eq. 6
     /// with the clamp after it, §7.2.3.
     ///
@@ -268,6 +290,14 @@ impl<'a> Subject<'a> {
                 }
                 Ok(values)
             })),
+            Evaluation::Batch(model) => Evaluation::AllAtOnce(Box::new(move |fragments| {
+                let values = evaluated_in_batches(precision, model, fragments);
+                Ok(values
+                    .into_iter()
+                    .zip(fragments)
+                    .map(|(chi, fragment)| spread(chi, fragment.frame))
+                    .collect())
+            })),
         };
         Self { name: format!("{}, {n} frames", self.name), frames: n.get(), threshold, ..self }
     }
@@ -276,7 +306,8 @@ impl<'a> Subject<'a> {
     #[must_use]
     pub fn paper() -> Vec<Self> {
         Self::both_variants("paper", |name, precision, variant| {
-            Self::hashed(name, precision, HashedAlpha::listing(variant))
+            let HashedAlpha { variant, hash_scale, form, .. } = HashedAlpha::listing(variant);
+            Self::of_model(name, precision, HashedAlpha { hash: HashKind::Sine, variant, hash_scale, form })
         })
     }
 
@@ -284,7 +315,7 @@ impl<'a> Subject<'a> {
     #[must_use]
     pub fn all_repairs() -> Vec<Self> {
         Self::both_variants("robust", |name, precision, variant| {
-            Self::robust::<HashKind>(name, precision, Robust::new(variant))
+            Self::of_model(name, precision, Robust::new(variant))
         })
     }
 
@@ -305,6 +336,11 @@ impl<'a> Subject<'a> {
         let fragment = fragment.into();
         match &self.threshold {
             Evaluation::OneByOne(threshold) => threshold(&fragment),
+            Evaluation::Batch(model) => {
+                let value = model_threshold(self.precision, model, &fragment.footprint);
+                // A listing answers NaN; the robust threshold refuses.
+                (!value.is_nan() || !matches!(model, Model::Robust(_))).then_some(value)
+            }
             Evaluation::AllAtOnce(_) => self.thresholds(&[fragment]).first().copied().filter(|t| !t.is_nan()),
         }
     }
@@ -317,6 +353,7 @@ impl<'a> Subject<'a> {
     pub fn thresholds<F: Copy + Into<Fragment> + Sync>(&self, fragments: &[F]) -> Vec<f64> {
         match &self.threshold {
             Evaluation::OneByOne(threshold) => evaluated(threshold, fragments),
+            &Evaluation::Batch(model) => evaluated_in_batches(self.precision, model, fragments),
             // What has failed is not run again: it may have taken its time.
             Evaluation::AllAtOnce(_) if self.failure().is_some() => vec![f64::NAN; fragments.len()],
             Evaluation::AllAtOnce(thresholds) => {
@@ -377,7 +414,68 @@ impl<'a> Subject<'a> {
     }
 }
 
+fn model_threshold(precision: Precision, model: &Model, footprint: &Footprint<f64>) -> f64 {
+    match precision {
+        Precision::F32 => model.threshold::<f32>(&footprint.cast()).to_f64(),
+        Precision::F64 => model.threshold(footprint),
+    }
+}
+
+fn evaluated_in_batches<F: Copy + Into<Fragment> + Sync>(
+    precision: Precision,
+    model: Model,
+    fragments: &[F],
+) -> Vec<f64> {
+    if fragments.len() < WORTH_A_BATCH {
+        let one = |&fragment: &F| model_threshold(precision, &model, &fragment.into().footprint);
+        return fragments.iter().map(one).collect();
+    }
+    let batch = Batch::new(model);
+    let of_chunk = |chunk: &[F]| match precision {
+        Precision::F32 => batch_thresholds::<f32, F>(&batch, chunk),
+        Precision::F64 => batch_thresholds::<f64, F>(&batch, chunk),
+    };
+    fragments.par_chunks(BATCH).flat_map_iter(of_chunk).collect()
+}
+
+fn batch_thresholds<R: Lane, F: Copy + Into<Fragment>>(batch: &Batch, fragments: &[F]) -> Vec<f64> {
+    let footprints = fragments.iter().map(|&fragment| fragment.into().footprint.cast());
+    let columns: ColumnBuffer<R> = footprints.collect();
+    let mut thresholds = vec![R::from_f64(0.0); fragments.len()];
+    batch.thresholds(&columns.columns(), &mut thresholds);
+    thresholds.into_iter().map(R::to_f64).collect()
+}
+
 fn evaluated<F: Copy + Into<Fragment> + Sync>(evaluation: &OneByOne<'_>, fragments: &[F]) -> Vec<f64> {
     let value = |&fragment: &F| evaluation(&fragment.into()).unwrap_or(f64::NAN);
     fragments.par_iter().with_min_len(1024).map(value).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+
+    #[test]
+    fn a_batch_has_the_bits_of_one_by_one() {
+        let fragments: Vec<Fragment> = Scene::all().iter().flat_map(Scene::fragments).step_by(37).collect();
+        let four_frames = NonZeroU32::new(4).expect("four is not zero");
+        let spread = Subject::paper().into_iter().map(|subject| subject.stratified(four_frames));
+        for subject in Subject::paper().into_iter().chain(Subject::all_repairs()).chain(spread) {
+            let rounded = |fragment: &Fragment| Fragment {
+                footprint: subject.precision.round(&fragment.footprint),
+                ..*fragment
+            };
+            let fragments: Vec<Fragment> = fragments.iter().map(rounded).collect();
+            let few = &fragments[..WORTH_A_BATCH - 1];
+            let (many, few_of_them) = (subject.thresholds(&fragments), subject.thresholds(few));
+            for (i, (fragment, value)) in fragments.iter().zip(&many).enumerate() {
+                let alone = subject.threshold(*fragment).unwrap_or(f64::NAN);
+                let same =
+                    |other: &f64| other.to_bits() == alone.to_bits() || other.is_nan() && alone.is_nan();
+                assert!(same(value), "{subject:?}: {value} and not {alone} at {fragment:?}");
+                assert!(few_of_them.get(i).is_none_or(same), "{subject:?}: {fragment:?}");
+            }
+        }
+    }
 }
