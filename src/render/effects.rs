@@ -2,10 +2,11 @@
 //! it exists.
 
 use super::tables::{
-    AlphaToCoverage, Average, Conservative, Coordinates, FadeIn, FinestLevel, Fixed, Foveated, Hashed,
-    History, Independent, Jitter, LevelThreshold, LimitedLevel, Occlusion, Pattern, Premultiplied,
-    RobustHash, ScaledAlpha, ScaledTexels, Stochastic, Supersampling, Temporal, TestThenBlend,
+    AlphaToCoverage, Apart, Average, Conservative, Coordinates, FadeIn, FinestLevel, Fixed, Foveated, Hashed,
+    History, Independent, Jitter, LevelThreshold, LimitedLevel, NaiveBlend, Occlusion, Pattern,
+    Premultiplied, RobustHash, ScaledAlpha, ScaledTexels, Stochastic, Supersampling, Temporal, TestThenBlend,
 };
+use crate::threshold::hash::HashKind;
 use crate::threshold::two_scale::Variant;
 use serde::Deserialize;
 
@@ -87,6 +88,8 @@ effects! {
     alpha_to_coverage: AlphaToCoverage, "§8, Eqs. 7 to 9", "Tests alpha at every sample of a pixel",
         "tests: samples a fragment; hashes: 1 more a fragment if decorrelated";
     fade_in: FadeIn, "§7.1, Eqs. 3 to 5", "Fades noise in with distance", "nothing but a mixture";
+    naive_blend: NaiveBlend, "§3", "Blends every fragment as it comes, with depth and without a test",
+        "blends: 1 a fragment; no tests";
     test_then_blend: TestThenBlend, "§3 (Moore & Jefferies 2009)", "Draws what fails the test once more, blended",
         "passes, fragments, texels: twice; blends: 1 a fragment";
     occlusion: Occlusion, "§9, Fig. 8", "Traces one ray a pixel into the open, in a direction that stays with the surface",
@@ -115,6 +118,18 @@ pub fn check(effects: &Effects) -> Result<(), String> {
     let sources: Vec<&str> = sources.iter().filter(|(_, present)| *present).map(|(name, _)| *name).collect();
     if sources.len() > 1 {
         return Err(format!("effects choose the threshold by {} at once; keep one", sources.join(" and ")));
+    }
+    if effects.naive_blend.is_some() {
+        let others = [
+            ("alpha_to_coverage", effects.alpha_to_coverage.is_some()),
+            ("conservative", effects.conservative.is_some()),
+            ("occlusion", effects.occlusion.is_some()),
+            ("test_then_blend", effects.test_then_blend.is_some()),
+        ];
+        let mut others = others.iter().filter(|(_, present)| *present).map(|(name, _)| *name);
+        if let Some(other) = others.next().or(sources.first().copied()) {
+            return Err(format!("`naive_blend` tests nothing and `{other}` does; keep one"));
+        }
     }
     let noisy = !matches!(sources[..], [] | ["fixed" | "level_threshold"]);
     let hashes = matches!(sources[..], ["hashed" | "robust"]);
@@ -159,6 +174,18 @@ pub fn check(effects: &Effects) -> Result<(), String> {
     }
     if effects.finest_level.is_some() && effects.limited_level.is_some() {
         return Err("`finest_level` and `limited_level` both choose the level; keep one".to_owned());
+    }
+    if let Some(independent) = &effects.independent
+        && independent.by == Apart::Word
+    {
+        let hash = effects.hashed.as_ref().map(|h| h.hash).or(effects.robust.as_ref().map(|r| r.hash));
+        if matches!(hash, Some(HashKind::Sine | HashKind::SineChi2 | HashKind::Pcg3d)) {
+            return Err(
+                "`independent.by` = \"word\" needs a hash that reads the word: mm4, xxhash32, pcg4d or \
+                        pcg-nested"
+                    .to_owned(),
+            );
+        }
     }
     for (what, present, met, need) in [
         ("coordinates", effects.coordinates.is_some(), hashes, "`hashed` or `robust`"),

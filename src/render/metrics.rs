@@ -23,6 +23,7 @@ use std::collections::BTreeMap;
 /// | `flips.translate`, `.zoom`, `.rotate` | the same with one cause of motion alone |
 /// | `layer_correlation` | correlation of the visibilities of the first two layers, where both are partly transparent |
 /// | `coverage_ratio.gaze`, `.periphery` | the coverage ratio within the circle around the gaze, and outside |
+/// | `ghosting` | share of the coverage that is shown where no surface is in that frame; of takes that mix frames |
 /// | `open` | share of the rays that are open, over all frames |
 /// | `open_flips` | change of that share a frame, per pixel with a ray in both |
 /// | `open_run_ratio` | `run_ratio` of open and occluded pixels |
@@ -37,6 +38,8 @@ pub type Metrics = BTreeMap<String, f64>;
 pub struct Asked {
     /// Correlation of the first two layers.
     pub layers: bool,
+    /// What frames leave behind in later ones.
+    pub ghosts: bool,
     /// The circle around the gaze and its outside, each alone.
     pub gaze: Option<Gaze>,
 }
@@ -59,6 +62,8 @@ struct Sums {
     flips: [f64; 2],
     /// Change of coverage over all pixels, and the number of frames that were compared.
     changed: [f64; 2],
+    /// Coverage where no surface is, and all.
+    ghosts: Option<[f64; 2]>,
     open: Option<OpenSums>,
     /// Neighbours along each axis that differ, and all.
     runs: [[f64; 2]; 2],
@@ -121,6 +126,13 @@ impl Measured {
         if !frame.rays.is_empty() {
             sums.open.get_or_insert_default().add(size, &frame.rays);
         }
+        if asked.ghosts {
+            let [ghosts, all] = sums.ghosts.get_or_insert_default();
+            for (&share, &touched) in picture.coverage.iter().zip(&frame.touched) {
+                *ghosts += if touched { 0.0 } else { f64::from(share) };
+                *all += f64::from(share);
+            }
+        }
         if asked.layers {
             let layers = sums.layers.get_or_insert_default();
             layers.covariance += frame.layers.covariance;
@@ -182,6 +194,9 @@ impl Measured {
         put("run_x", run_x);
         put("run_y", run_y);
         put("run_ratio", run_y / run_x.max(f64::MIN_POSITIVE));
+        if let Some([ghosts, all]) = sums.ghosts {
+            put("ghosting", ghosts / all.max(f64::MIN_POSITIVE));
+        }
         if let Some(open) = &sums.open {
             put("open", open.rays[1] as f64 / open.rays[0].max(1) as f64);
             if open.flips[1] > 0.0 {

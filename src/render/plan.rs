@@ -92,9 +92,13 @@ pub fn plan(effects: &Effects) -> Plan {
     stages.extend(scaling.map(Stage::Scaled));
     let again = stages.clone();
     let coverage = effects.alpha_to_coverage.as_ref();
-    stages.extend(source(effects, space));
+    if effects.naive_blend.is_some() {
+        stages.push(Stage::BlendAll);
+    } else {
+        stages.extend(source(effects, space));
+    }
     if let Some(independent) = &effects.independent {
-        stages.push(Stage::Independent(independent.frames));
+        stages.push(Stage::Independent(independent.frames, independent.by));
     }
     if let Some(temporal) = &effects.temporal {
         stages.push(Stage::Stratify(temporal.frames, temporal.order));
@@ -105,15 +109,21 @@ pub fn plan(effects: &Effects) -> Plan {
     if let Some(fade_in) = &effects.fade_in {
         stages.push(Stage::FadeIn(fade_in.clone()));
     }
-    if !stages.iter().any(|stage| matches!(stage, Stage::Fixed(_) | Stage::LevelThreshold)) {
+    let unclamped =
+        |stage: &Stage| matches!(stage, Stage::Fixed(_) | Stage::LevelThreshold | Stage::BlendAll);
+    if !stages.iter().any(unclamped) {
         stages.push(Stage::Clamp);
     }
     if effects.conservative.as_ref().is_some_and(|conservative| conservative.corrected) {
         stages.push(Stage::Correct);
     }
-    stages.push(Stage::Test);
+    if effects.naive_blend.is_none() {
+        stages.push(Stage::Test);
+    }
     stages.extend(effects.occlusion.map(Stage::Occlude));
-    stages.push(Stage::Resolve { divide: effects.premultiplied.is_some() });
+    if effects.naive_blend.is_none() {
+        stages.push(Stage::Resolve { divide: effects.premultiplied.is_some() });
+    }
     if effects.test_then_blend.is_some() {
         stages.extend(again);
         stages.push(Stage::Blend(
@@ -225,7 +235,7 @@ impl Plan {
                 }
                 Stage::Test => cost.tests += thresholds,
                 Stage::Occlude(table) => cost += occlusion::cost(table, shown),
-                Stage::Blend(_) => cost.blends += fragments,
+                Stage::Blend(_) | Stage::BlendAll => cost.blends += fragments,
                 Stage::History(_) | Stage::Average(_) => cost.blends += pixels,
                 _ => {}
             }

@@ -55,7 +55,7 @@ impl Plan {
                     let FadeIn { full_noise_lod, anisotropy, .. } = *fade_in;
                     options.fade_in = Some(assemble::FadeIn { full_noise_lod, anisotropy });
                 }
-                Stage::Independent(_) | Stage::LevelThreshold => return Ok(None),
+                Stage::Independent(..) | Stage::LevelThreshold | Stage::BlendAll => return Ok(None),
                 _ => {}
             }
         }

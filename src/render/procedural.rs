@@ -53,6 +53,13 @@ pub struct Checkerboard {
 pub struct Constant {
     /// That alpha, in [0, 1].
     pub alpha: f64,
+    /// The colour, in [0, 1].
+    #[serde(default = "veil")]
+    pub colour: [f64; 3],
+}
+
+fn veil() -> [f64; 3] {
+    [0.2, 0.3, 0.5]
 }
 
 fn leaf_count() -> u32 {
@@ -176,7 +183,7 @@ impl Constant {
     /// Draws the one value.
     #[must_use]
     pub fn draw(&self, size: u32) -> Level {
-        draw(size, self.alpha, [0.2, 0.3, 0.5], |_| Some([0.2, 0.3, 0.5]))
+        draw(size, self.alpha, self.colour, |_| Some(self.colour))
     }
 }
 
@@ -190,7 +197,7 @@ mod tests {
         // Two families of wires that cover a fifth each.
         assert!((wire.mean_alpha() - 0.36).abs() < 0.02, "{}", wire.mean_alpha());
         assert_eq!(Checkerboard { squares: 8 }.draw(64, 1.0).mean_alpha(), 0.5);
-        assert!((Constant { alpha: 0.3 }.draw(4).mean_alpha() - 0.3).abs() < 1e-7);
+        assert!((Constant { alpha: 0.3, colour: veil() }.draw(4).mean_alpha() - 0.3).abs() < 1e-7);
         let leaves = Leaves { count: 14, length: 0.36 }.draw(64, 1.0, 0);
         assert!((0.2..0.5).contains(&leaves.mean_alpha()), "{}", leaves.mean_alpha());
         let hair = Hair { strands: 24, thickness: 0.02 }.draw(64, 1.0, 0);

@@ -10,19 +10,20 @@ use super::rasterise::{Screen, TILE};
 use super::stage::{Stage, hashes};
 use super::study::Shot;
 use super::sub_pixel;
-use super::tables::{FadeIn, Occlusion, Pattern};
+use super::tables::{Apart, FadeIn, Occlusion, Pattern};
 use super::texture::{Access, Texture};
 use crate::scene::Camera;
 use crate::technique::blend_towards::blend_towards;
-use crate::technique::independent::by_offset;
+use crate::technique::independent::{ByFrame, by_offset};
 use crate::technique::order::Order;
 use crate::technique::premultiplied;
-use crate::technique::remedies::test_then_blend::{Layer, test_then_blend};
+use crate::technique::remedies::test_then_blend::{Layer, naive, test_then_blend};
 use crate::threshold::batch::{Batch, Model};
 use crate::threshold::coverage::{decorrelated, jittered, regular};
 use crate::threshold::fade_in::{anisotropy, blend, clamp_last};
 use crate::threshold::fixed::passes;
-use crate::threshold::hash::{integer::pcg4d, open_lattice};
+use crate::threshold::footprint::Footprint;
+use crate::threshold::hash::{Hash, HashKind, integer::pcg4d, open_lattice};
 use crate::threshold::hashed::HashedAlpha;
 use crate::threshold::robust::Robust;
 use crate::threshold::stochastic;
@@ -219,16 +220,25 @@ impl Draw<'_> {
                 Stage::Occlude(table) => self.occlude(work, tile, table, &mut rng, &mut result),
                 Stage::Resolve { divide } => self.resolve(work, *divide, &mut result),
                 Stage::Blend(threshold) => {
-                    self.blend(work, *threshold, &mut result);
+                    let threshold = f64::from(*threshold);
+                    self.blend(
+                        work,
+                        |layers, behind| test_then_blend(layers, behind, threshold),
+                        &mut result,
+                    );
+                    result.cost.blends += work.fragments.len() as u64;
+                }
+                Stage::BlendAll => {
+                    self.blend(work, naive, &mut result);
                     result.cost.blends += work.fragments.len() as u64;
                 }
                 // The first is done beforehand, the second by the hash, the third when fragments are made, the fourth when
                 // texels are read, the others on whole pictures.
-                Stage::Scaled(_) | Stage::Independent(_) | Stage::Touch | Stage::Foveate(_) => {}
+                Stage::Scaled(_) | Stage::Independent(..) | Stage::Touch | Stage::Foveate(_) => {}
                 Stage::Downsample(_) | Stage::History(_) | Stage::Average(_) => {}
             }
         }
-        if self.scene.file.layers.is_some() {
+        if self.scene.file.layers.is_some() && !work.kept.is_empty() {
             result.layers = layer_sums(work, self.plan.samples);
         }
         result
@@ -251,10 +261,10 @@ impl Draw<'_> {
         work.threshold.clear();
         work.threshold.resize(work.fragments.len(), 0.0);
         let frames = self.plan.stages.iter().find_map(|stage| match stage {
-            Stage::Independent(frames) => Some(*frames),
+            Stage::Independent(frames, apart) => Some((*frames, *apart)),
             _ => None,
         });
-        let Some(frames) = frames else {
+        let Some((frames, apart)) = frames else {
             Batch::new(*model).thresholds(&columns, &mut work.threshold);
             return;
         };
@@ -262,20 +272,9 @@ impl Draw<'_> {
         let frame = self.frame % frames;
         for (at, threshold) in work.threshold.iter_mut().enumerate() {
             let footprint = columns.footprint(at);
-            *threshold = match *model {
-                Model::Hashed(HashedAlpha { variant, hash, hash_scale, form }) => {
-                    HashedAlpha { variant, hash: by_offset(hash, frame), hash_scale, form }
-                        .threshold(&footprint)
-                }
-                Model::BeforeCdf(HashedAlpha { variant, hash, hash_scale, form }) => {
-                    HashedAlpha { variant, hash: by_offset(hash, frame), hash_scale, form }
-                        .trace(&footprint)
-                        .interpolated
-                }
-                Model::Robust(Robust { variant, hash, hash_scale, join, repairs }) => {
-                    let robust = Robust { variant, hash: by_offset(hash, frame), hash_scale, join, repairs };
-                    robust.threshold(&footprint).unwrap_or(f32::NAN)
-                }
+            *threshold = match apart {
+                Apart::Offset => with_hash(model, &footprint, |hash| by_offset(hash, frame)),
+                Apart::Word => with_hash(model, &footprint, |hash| ByFrame { hash, frame }),
             };
         }
     }
@@ -411,8 +410,8 @@ impl Draw<'_> {
         }
     }
 
-    /// Draws what failed the test over what passed it, in the order in which it comes.
-    fn blend(&self, work: &Work, threshold: f32, result: &mut TileResult) {
+    /// Draws pixels as `drawn` makes them of their fragments, in the order in which they come, and the background.
+    fn blend(&self, work: &Work, drawn: impl Fn(&[Layer], f64) -> f64, result: &mut TileResult) {
         let divide = self.plan.textures.premultiplied;
         let mut of_pixel: Vec<Vec<usize>> = vec![Vec::new(); PIXELS];
         for at in 0..work.fragments.len() {
@@ -427,9 +426,8 @@ impl Draw<'_> {
                 };
                 fragments.iter().map(layer).collect()
             };
-            let drawn = |value: &dyn Fn(usize) -> f32, behind: f32| {
-                test_then_blend(&layers(value), f64::from(behind), f64::from(threshold)) as f32
-            };
+            let drawn =
+                |value: &dyn Fn(usize) -> f32, behind: f32| drawn(&layers(value), f64::from(behind)) as f32;
             result.colour[pixel] = [0, 1, 2].map(|c| drawn(&|at| self.colour(work, at, divide)[c], SKY[c]));
             result.coverage[pixel] = drawn(&|_| 1.0, 0.0);
         }
@@ -447,6 +445,22 @@ impl Draw<'_> {
             None => LEAF,
         };
         colour.map(|c| (c * shade).min(1.0))
+    }
+}
+
+/// The threshold of a model with another hash in place of its own.
+fn with_hash<H: Hash<f32>>(model: &Model, footprint: &Footprint<f32>, of: impl Fn(HashKind) -> H) -> f32 {
+    match *model {
+        Model::Hashed(HashedAlpha { variant, hash, hash_scale, form }) => {
+            HashedAlpha { variant, hash: of(hash), hash_scale, form }.threshold(footprint)
+        }
+        Model::BeforeCdf(HashedAlpha { variant, hash, hash_scale, form }) => {
+            HashedAlpha { variant, hash: of(hash), hash_scale, form }.trace(footprint).interpolated
+        }
+        Model::Robust(Robust { variant, hash, hash_scale, join, repairs }) => {
+            let robust = Robust { variant, hash: of(hash), hash_scale, join, repairs };
+            robust.threshold(footprint).unwrap_or(f32::NAN)
+        }
     }
 }
 

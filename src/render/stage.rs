@@ -1,7 +1,7 @@
 //! The stages of which plans are made.
 
 use super::adjust::Scaling;
-use super::tables::{FadeIn, History, Occlusion, Pattern, Space};
+use super::tables::{Apart, Chi, FadeIn, History, Occlusion, Pattern, Space};
 use crate::technique::foveated::Gaze;
 use crate::technique::order::Order;
 use crate::threshold::batch::Model;
@@ -30,8 +30,8 @@ pub enum Stage {
     Stochastic,
     /// A hashed threshold.
     Hash(Model, Space),
-    /// The same at another place in each of so many frames.
-    Independent(NonZeroU32),
+    /// The same, apart in each of so many frames.
+    Independent(NonZeroU32, Apart),
     /// The stratum of the frame.
     Stratify(NonZeroU32, Order),
     /// The strata of the samples.
@@ -53,6 +53,8 @@ pub enum Stage {
     },
     /// What failed the test with a threshold, blended over what passed it.
     Blend(f32),
+    /// Every fragment blended in the order in which it comes, with depth.
+    BlendAll,
     /// The mean of the places within a pixel.
     Downsample(u32),
     /// The exponential average of all frames.
@@ -86,8 +88,9 @@ impl Stage {
             Self::Scaled(Scaling::Levels) => Some("scaled_alpha"),
             Self::Scaled(Scaling::Texels(_)) => Some("scaled_texels"),
             Self::LevelThreshold => Some("level_threshold"),
-            Self::Independent(_) => Some("independent"),
+            Self::Independent(..) => Some("independent"),
             Self::Blend(_) => Some("test_then_blend"),
+            Self::BlendAll => Some("naive_blend"),
             Self::History(_) => Some("history"),
             Self::Resolve { divide: true } => Some("premultiplied"),
             Self::Average(_) => Some("average"),
@@ -106,11 +109,18 @@ impl Stage {
             Self::Foveate(Gaze { centre: [x, y], radius, slope }) => format!(
                 "foveate: samples of 1 px within {radius} px of ({x}, {y}), beyond that {slope} px more a pixel"
             ),
-            Self::Occlude(Occlusion { reach, chi, variant }) => format!(
-                "occlude: one ray from the nearest that is kept, up to {reach} units, {} by the {variant} listing; \
-                 triangles are solid to it",
-                chi.name()
-            ),
+            Self::Occlude(Occlusion { reach, chi, variant }) => {
+                let from = match chi {
+                    Chi::TwoHashes => format!("two hashes of the {variant} listing"),
+                    Chi::Offsets => format!("two offsets of the {variant} listing"),
+                    Chi::Word => format!("two words of the robust {variant} threshold"),
+                    Chi::Seeded => format!("a generator seeded by the coarse cell, {variant}"),
+                    Chi::Random => "fresh random numbers".to_owned(),
+                };
+                format!(
+                    "occlude: one ray from the nearest that is kept, up to {reach} units, by {from}; triangles are solid"
+                )
+            }
             Self::Correct => "correct: thresholds over the share of the pixel, those above 1 too".to_owned(),
             Self::SampleAlpha(None) => "sample alpha: at the level of the footprint".to_owned(),
             Self::SampleAlpha(Some(level)) => format!("sample alpha: no coarser than level {level}"),
@@ -147,8 +157,16 @@ impl Stage {
                 format!("adjust alpha: scaled for each texel by those within {radius}, beforehand")
             }
             Self::LevelThreshold => "threshold: that of the level, found beforehand".to_owned(),
-            Self::Independent(frames) => format!("hash: at another place in each of {frames} frames"),
+            Self::Independent(frames, Apart::Offset) => {
+                format!("hash: at another place in each of {frames} frames")
+            }
+            Self::Independent(frames, Apart::Word) => {
+                format!("hash: with another word in each of {frames} frames")
+            }
             Self::Blend(threshold) => format!("blend: what failed at {threshold}, over what passed"),
+            Self::BlendAll => {
+                "blend: every fragment as it comes, each hiding what comes later behind it".to_owned()
+            }
             Self::History(history) => {
                 let clamped = if history.clamp { ", clamped to its neighbourhood" } else { "" };
                 format!("history: {} of the newest frame, the rest of those before{clamped}", history.weight)

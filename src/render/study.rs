@@ -243,7 +243,13 @@ impl Take {
             1 if is_first_shot => self.second = Some(frame.picture.clone()),
             _ => {}
         }
-        measured.add(&frame, truth, Asked { layers: scene.file.layers.is_some(), gaze: self.plan.gaze });
+        let mixes = |stage: &Stage| matches!(stage, Stage::History(_) | Stage::Average(_));
+        let asked = Asked {
+            layers: scene.file.layers.is_some(),
+            ghosts: self.plan.stages.iter().any(mixes),
+            gaze: self.plan.gaze,
+        };
+        measured.add(&frame, truth, asked);
     }
 
     fn finish(mut self, measured: &Measured) -> Self {

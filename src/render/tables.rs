@@ -61,6 +61,20 @@ pub struct ScaledTexels {
 pub struct Independent {
     /// Number of frames that belong together.
     pub frames: NonZeroU32,
+    /// How their hashes are kept apart.
+    #[serde(default)]
+    pub by: Apart,
+}
+
+/// How the hashes of frames are kept apart.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Apart {
+    /// Cells are shifted (§7.2.2).
+    #[default]
+    Offset,
+    /// The octave word, for hashes that read it; not in the paper.
+    Word,
 }
 
 /// A camera that moves within a pixel.
@@ -70,6 +84,11 @@ pub struct Jitter {
     /// Number of frames that belong together.
     pub frames: NonZeroU32,
 }
+
+/// Blending without a test.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct NaiveBlend {}
 
 /// The alpha test, and then what it left out, blended.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
