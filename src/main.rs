@@ -6,6 +6,7 @@ use clap::Parser;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
+    cli::quiet_readers();
     match cli::Args::try_parse() {
         Ok(args) => cli::finish(cli::run(&args)),
         Err(message) => cli::finish(cli::tell(&message)),

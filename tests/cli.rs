@@ -486,6 +486,60 @@ fn a_shader_file_is_put_on_trial() {
     }
 }
 
+#[test]
+fn each_file_has_its_function_and_its_values() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str, text: &str| {
+        let file = folder.path().join(name);
+        std::fs::write(&file, text).unwrap();
+        file.to_str().unwrap().to_owned()
+    };
+    let first = file(
+        "first.glsl",
+        "uniform vec3 k;\nfloat a(vec3 position) { return k.y + 0.0 * min(position.x, 0.0); }",
+    );
+    let second =
+        file("second.wgsl", "fn b(lod: f32) -> f32 { return 0.5; }\nfn c(lod: f32) -> f32 { return 2.0; }");
+    let options = ["--on", "cpu", "--only", "range.far_from_origin", "--budget", "quick", "--no-report"];
+    let check = |more: &[&str]| {
+        let output = run(&[&["check"][..], more, &options].concat(), "");
+        let [out, error] = [output.stdout, output.stderr].map(|text| String::from_utf8(text).unwrap());
+        (output.status.code(), out, error)
+    };
+    let files = [&*format!("{first}#a"), &format!("{second}#b"), &format!("{second}#c")];
+    let value = format!("{first}#k=0,0.5,0");
+    let (code, out, error) = check(&[&files[..], &["--set", &value]].concat());
+    assert_eq!(code, Some(1), "{error}");
+    let verdict = |subject: &str| {
+        out.lines().find(|line| line.contains(subject)).map(|line| line.starts_with("consistent"))
+    };
+    let verdicts = ["first.glsl#a", "second.wgsl#b", "second.wgsl#c"].map(verdict);
+    assert_eq!(verdicts, [Some(true), Some(true), Some(false)], "{out}");
+    for (more, message) in [
+        (
+            vec![files[0], "--set", "k=1,2"],
+            "first.glsl:1:14: `k` is vec3<f32> and takes 3 values, --set k=X,Y,Z, not 2",
+        ),
+        (
+            vec![files[0], "--set", "k=1,2,3", "--set", "k=1,2,4"],
+            "--set k=1,2,4: k has a value already, 1,2,3",
+        ),
+        (vec![files[1], "--set", &value], "first.glsl is none of the files of this run"),
+        (
+            vec![&*format!("{second}#d")],
+            "there is no function `d`; --function NAME takes one of another name; functions are b, c",
+        ),
+    ] {
+        let (code, _, error) = check(&more);
+        assert!(code == Some(2) && error.contains(message), "{error}, not {message}");
+    }
+    let negative = String::from_utf8(run(&["check", "--seed", "-1"], "").stderr).unwrap();
+    assert!(
+        negative.contains("'-1' for '--seed <N>': a seed is a whole number from 0 to 18446744073709551615"),
+        "{negative}"
+    );
+}
+
 /// No driver is found where these point.
 const NO_DRIVERS: [(&str, &str); 3] = [
     ("VK_DRIVER_FILES", "/nonexistent"),

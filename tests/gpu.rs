@@ -14,7 +14,7 @@ use hashed_alpha::check::parity::Law;
 use hashed_alpha::scene::{Camera, Fragment, Rectangle, Scene};
 use hashed_alpha::shader::assemble::{ShaderOptions, assemble};
 use hashed_alpha::shader::gpu::adapter::{Adapter, adapters};
-use hashed_alpha::shader::gpu::parity::{Class, Report, STAGES, Stage, expected_difference};
+use hashed_alpha::shader::gpu::parity::{Class, Report, Stage, expected_difference, stages};
 use hashed_alpha::shader::gpu::picture::{self, Pixel};
 use hashed_alpha::shader::gpu::program::drawn_word;
 use hashed_alpha::shader::gpu::{Choice, Device, Error, Evaluator, Kernel};
@@ -118,7 +118,7 @@ fn trials_of(label: &'static str, part: &'static str) -> Vec<Trial> {
         let device = device.clone();
         trials.push(Trial::test(format!("{label}::{name}"), move || claim(&device()?)));
     }
-    for stage in STAGES {
+    for stage in stages() {
         let device = device.clone();
         let name = format!("{label}::parity::{}", stage.name.replace([' ', ','], "_"));
         trials.push(Trial::test(name, move || has_parity(&device()?, stage)));
@@ -316,7 +316,7 @@ fn is_listed(device: &Device) -> bool {
 fn report_names_the_start(device: &Device) -> Result<(), Failed> {
     let report = Report::of(device, PARITY_INPUTS[1])?;
     println!("{report}");
-    assert_eq!(report.rows.len(), STAGES.iter().filter(|stage| stage.class != Class::Law).count());
+    assert_eq!(report.rows.len(), stages().filter(|stage| stage.class != Class::Law).count());
     if is_listed(device) {
         assert_eq!(report.first_difference().map(|row| row.stage), Some("log2"));
     }

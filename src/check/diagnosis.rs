@@ -22,8 +22,9 @@ impl fmt::Display for Guess {
     }
 }
 
-/// Returns the specimens that the subject of these outcomes looks like, the likest first; specimens that are equally
-/// like it keep their order.
+/// Returns the specimens that the subject of these outcomes looks like, the likest first. Of those that are equally like
+/// it, which happens where few claims were tried, the one with the simplest defect comes first: the one that the fewest
+/// claims of the whole suite reject.
 ///
 /// Only claims that were tried and gave an answer count, and none that is known to fail: under
 /// [`Suite::Paper`](super::Suite::Paper) those are the ones that the paper's own listing fails. Empty where nothing
@@ -51,7 +52,10 @@ pub fn guesses(outcomes: &[Outcome]) -> Vec<Guess> {
         (likeness >= LEAST_LIKENESS).then_some(Guess { specimen, likeness })
     };
     let mut guesses: Vec<Guess> = specimen::ALL.iter().filter_map(likeness).collect();
-    guesses.sort_by(|a, b| b.likeness.total_cmp(&a.likeness));
+    let rejections = |guess: &Guess| matrix.row(guess.specimen.name).map_or(0, |row| row.claims.len());
+    guesses.sort_by(|a, b| {
+        b.likeness.total_cmp(&a.likeness).then_with(|| rejections(a).cmp(&rejections(b)))
+    });
     guesses
 }
 
@@ -107,6 +111,18 @@ pub(super) mod tests {
             let own = found.iter().find(|guess| guess.specimen.name == specimen.name);
             assert!(own.is_some_and(|own| own.likeness == 1.0), "{specimen:?}: {found:?}");
         }
+    }
+
+    #[test]
+    fn of_equally_like_specimens_the_simplest_comes_first() {
+        let tried = ["range", "range.degenerate", "range.far_from_origin"];
+        let mut outcomes = outcomes_of("no-derivative-floor");
+        outcomes.retain(|outcome| tried.contains(&outcome.check));
+        let found = guesses(&outcomes);
+        let place = |name: &str| found.iter().position(|guess| guess.specimen.name == name).unwrap();
+        assert_eq!(found[place("half-precision")].likeness, found[0].likeness);
+        assert_eq!(place("no-derivative-floor"), 0);
+        assert!(place("zero-derivatives-skipped") < place("half-precision"));
     }
 
     #[test]

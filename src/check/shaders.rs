@@ -7,7 +7,8 @@ use crate::shader::interpreter::DeviceModel;
 use crate::shader::own::{OwnShader, ShaderError};
 use crate::threshold::two_scale::Variant;
 
-/// Puts a shader on trial in the interpreter, under the arithmetic of a device model.
+/// Puts a shader on trial in the interpreter, under the arithmetic of a device model. Its remarks are what it did that
+/// shading languages leave open ([`Program::oddities`](crate::shader::interpreter::Program::oddities)).
 ///
 /// # Errors
 ///
@@ -20,8 +21,9 @@ pub fn interpreted(
 ) -> Result<Subject<'static>, ShaderError> {
     let program = shader.program()?;
     let shader = shader.clone();
+    let (its_program, its_shader) = (program.clone(), shader.clone());
     let thresholds = move |fragments: &[Fragment]| shader.thresholds(&program, fragments, &model);
-    Ok(batched(name, variant, thresholds))
+    Ok(batched(name, variant, thresholds).with_remarks(move || its_shader.remarks(&its_program)))
 }
 
 /// Puts a shader on trial on a device.

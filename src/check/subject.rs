@@ -73,6 +73,9 @@ const WORTH_A_BATCH: usize = BLOCK / 8;
 /// Fragments of which a thread evaluates a batch.
 const BATCH: usize = 16 * BLOCK;
 
+/// What a subject has to say of itself.
+type Remarks<'a> = Box<dyn Fn() -> Vec<String> + Send + Sync + 'a>;
+
 /// A threshold on trial.
 pub struct Subject<'a> {
     /// The name in reports, as in "paper:isotropic".
@@ -93,6 +96,7 @@ pub struct Subject<'a> {
     threshold: Evaluation<'a>,
     interpolated: Option<OneByOne<'a>>,
     failure: OnceLock<String>,
+    remarks: Option<Remarks<'a>>,
 }
 
 /// The cells that a subject claims to have at a footprint.
@@ -200,7 +204,14 @@ impl<'a> Subject<'a> {
             threshold,
             interpolated: None,
             failure: OnceLock::new(),
+            remarks: None,
         }
+    }
+
+    /// Adds what the subject has to say of itself when it has run ([`Subject::remarks`]).
+    #[must_use]
+    pub fn with_remarks(self, remarks: impl Fn() -> Vec<String> + Send + Sync + 'a) -> Self {
+        Self { remarks: Some(Box::new(remarks)), ..self }
     }
 
     /// Puts a literal listing on trial.
@@ -370,6 +381,12 @@ impl<'a> Subject<'a> {
     #[must_use]
     pub fn failure(&self) -> Option<&str> {
         self.failure.get().map(String::as_str)
+    }
+
+    /// Returns what the subject has to say of itself so far: nothing that is wrong, but hardly meant.
+    #[must_use]
+    pub fn remarks(&self) -> Vec<String> {
+        self.remarks.as_ref().map_or_else(Vec::new, |remarks| remarks())
     }
 
     /// Evaluates the value before Eq. 2 of many fragments or footprints; `None` for a subject that has none.

@@ -63,6 +63,7 @@ Examples:
   hashed-alpha check paper:anisotropic --seed 7 --out report-7
   hashed-alpha check my.wgsl --suite paper
   hashed-alpha check my.glsl --function alpha_threshold --set hash_scale=2 --on device-model
+  hashed-alpha check old.glsl#getThreshold new.wgsl#threshold --set old.glsl#u_scale=0.1,0.2,0.3
   hashed-alpha check paper --json --no-report | jq 'select(.verdict == \"rejected\")'
   hashed-alpha check paper --suite paper
   hashed-alpha check paper --only stability --only range --budget quick
@@ -76,7 +77,8 @@ A file of known findings makes the exit code speak of news alone:
   reason = \"all cells of one z share a bias\"")]
 pub struct CheckArgs {
     /// Subjects to try: `paper`, `robust`, or one variant of them as in `paper:isotropic`; the same on a device as in
-    /// `gpu:robust`; a shader file that ends in .wgsl, .glsl or .spv. `robust` when none is given
+    /// `gpu:robust`; a shader file that ends in .wgsl, .glsl, .frag, .vert, .comp, .fs, .vs or .spv, with `#NAME` behind it
+    /// for a function of it. `robust` when none is given
     #[arg(value_name = "SUBJECT")]
     pub subjects: Vec<String>,
     #[command(flatten)]
@@ -88,7 +90,7 @@ pub struct CheckArgs {
     #[arg(long)]
     pub json: bool,
     /// Seed of every random number of the run
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = seed, allow_negative_numbers = true)]
     pub seed: u64,
     /// Folder for the report
     #[arg(long, value_name = "DIR", default_value = "report")]
@@ -142,10 +144,11 @@ impl On {
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "Shaders")]
 pub struct ShaderArgs {
-    /// Function of a shader file that returns the threshold
+    /// Function of the shader files that returns the threshold; that of one file is named as in `my.glsl#NAME`
     #[arg(long, value_name = "NAME", default_value = "threshold")]
     pub function: String,
-    /// Value of a parameter, uniform or override of a shader file; can be given several times
+    /// Value of a parameter, uniform, override or macro of the shader files; a vector is X,Y,Z. FILE#KEY=VALUE for one file
+    /// among several. Can be given several times
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
     /// Where a shader runs: `auto` is the GPU if there is one and the interpreter otherwise, `device-model` is the interpreter
@@ -189,7 +192,7 @@ pub struct CompareArgs {
     #[command(flatten)]
     pub shader: ShaderArgs,
     /// Seed of every random number of the run
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = seed, allow_negative_numbers = true)]
     pub seed: u64,
     /// How many samples are drawn: `quick` for a quarter, `nightly` for sixteen times as many
     #[arg(long, default_value = "ci", value_parser = one_of(Budget::ALL, Budget::name))]
@@ -324,7 +327,7 @@ pub struct SceneArgs {
     #[arg(long, value_name = "N")]
     pub frames: Option<core::num::NonZeroU32>,
     /// Seed of every random number; by default that of the scene
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = seed, allow_negative_numbers = true)]
     pub seed: Option<u64>,
 }
 
@@ -417,6 +420,11 @@ fn resolution(text: &str) -> Result<[u32; 2], &'static str> {
         text.split_once('x').and_then(|(width, height)| Some([width.parse().ok()?, height.parse().ok()?]));
     size.filter(|size| size.iter().all(|side| (1..=LARGEST_SIDE).contains(side)))
         .ok_or("write width and height in pixels like 640x480, each from 1 to 16384")
+}
+
+/// Reads a seed.
+fn seed(text: &str) -> Result<u64, String> {
+    text.parse().map_err(|_| format!("a seed is a whole number from 0 to {}", u64::MAX))
 }
 
 #[cfg(test)]

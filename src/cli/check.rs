@@ -3,7 +3,7 @@
 use super::args::CheckArgs;
 use super::failure::Failure;
 use super::known::{self, Known};
-use super::{Ending, drivers, output, subjects};
+use super::{Ending, drivers, output, shader_files, subjects};
 use hashed_alpha::check::claims::{self, Claim};
 use hashed_alpha::check::expectation::{Expectation, Judgement, judge};
 use hashed_alpha::check::results::excuse_the_listings;
@@ -15,6 +15,7 @@ use hashed_alpha::shader::interpreter::DeviceModel;
 use indicatif::ProgressBar;
 use std::io::Write;
 use std::path::Path;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Tries the claims, writes the report, then the results.
 ///
@@ -25,6 +26,8 @@ pub fn run(args: &CheckArgs) -> Result<Ending, Failure> {
         [] => &["robust".to_owned()],
         typed => typed,
     };
+    let words: Vec<_> = typed.iter().map(String::as_str).collect();
+    shader_files::refuse_strays(&words, &args.shader)?;
     drivers::silence(typed, &args.shader);
     let subjects = subjects::subjects(typed, &args.shader)?;
     let claims = chosen_claims(&args.only)?;
@@ -37,6 +40,9 @@ pub fn run(args: &CheckArgs) -> Result<Ending, Failure> {
     }
     let draw = Draw { seed: args.seed, budget: args.budget, round: 0 };
     let mut outcomes = tried(&claims, &subjects, &draw);
+    for (subject, remark) in subjects.iter().flat_map(|s| s.remarks().into_iter().map(move |r| (s, r))) {
+        output::remark("note", format_args!("{}: {remark}", subject.name));
+    }
     if args.suite == Suite::Paper {
         excuse_the_listings(&mut outcomes);
     }
@@ -91,15 +97,30 @@ fn chosen_claims(typed: &[String]) -> Result<Vec<Claim>, Failure> {
     Ok(claims::ALL.iter().filter(wanted).copied().collect())
 }
 
-/// Runs the suite with a bar on stderr, where that is a terminal.
+/// Runs the suite and shows on stderr how far it is: a bar on a terminal, elsewhere a line every ten seconds.
 fn tried(claims: &[Claim], subjects: &[Subject<'_>], draw: &Draw) -> Vec<Outcome> {
     let (seed, count, budget) = (draw.seed, subjects.len(), draw.budget.name());
     let words = format_args!("seed {seed}, budget {budget}, {} claims on {count} subjects", claims.len());
     output::remark("note", words);
-    let bar = ProgressBar::new((claims.len() * count) as u64);
-    let outcomes = check::run_claims(claims, subjects, draw, || bar.inc(1));
+    let trials = (claims.len() * count) as u64;
+    let bar = ProgressBar::new(trials);
+    bar.tick();
+    let told = AtomicU64::new(0);
+    let outcomes = check::run_claims(claims, subjects, draw, || {
+        bar.inc(1);
+        let seconds = bar.elapsed().as_secs();
+        if bar.is_hidden() && is_due(&told, seconds) {
+            output::remark("note", format_args!("{} of {trials} trials after {seconds} s", bar.position()));
+        }
+    });
     bar.finish_and_clear();
     outcomes
+}
+
+/// Whether ten seconds have passed since the last line; of several threads one is told so.
+fn is_due(told: &AtomicU64, seconds: u64) -> bool {
+    let tens = seconds / 10;
+    told.fetch_max(tens, Ordering::Relaxed) < tens
 }
 
 /// Says on stderr what the exit code rests on.
@@ -137,6 +158,13 @@ fn ending(outcomes: &[Outcome], judgement: &Judgement) -> Ending {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_line_is_due_every_ten_seconds() {
+        let told = AtomicU64::new(0);
+        let due = [0, 9, 10, 10, 19, 34, 39, 40].map(|seconds| is_due(&told, seconds));
+        assert_eq!(due, [false, false, true, false, false, true, false, true]);
+    }
 
     #[test]
     fn a_rejection_outweighs_a_missing_answer() {

@@ -2,13 +2,14 @@
 
 use super::args::CompareArgs;
 use super::failure::Failure;
-use super::{Ending, drivers, output, subjects};
+use super::{Ending, drivers, output, shader_files, subjects};
 use hashed_alpha::check::compare::{Agreement, compare};
 use hashed_alpha::check::{Draw, Subject};
 use std::io::Write;
 
 /// Compares every subject of the first name with its counterpart of the second.
 pub fn run(args: &CompareArgs) -> Result<Ending, Failure> {
+    shader_files::refuse_strays(&[&args.first, &args.second], &args.shader)?;
     for typed in [&args.first, &args.second] {
         drivers::silence(std::slice::from_ref(typed), &args.shader);
     }

@@ -1,8 +1,7 @@
 //! Mesa's drivers, kept from writing to stderr.
 
 use super::args::{On, ShaderArgs};
-use hashed_alpha::shader::own::Language;
-use std::path::Path;
+use super::shader_files::ShaderFile;
 
 /// Switches off the layer with which Mesa orders its Vulkan devices, where one of the subjects may run on a device: without
 /// a display server it complains of `XDG_RUNTIME_DIR`, twice, on everybody's stderr.
@@ -29,7 +28,7 @@ pub fn silence(_: &[String], _: &ShaderArgs) {}
 fn may_need_a_device(subject: &str, on: On) -> bool {
     match on {
         On::Gpu => true,
-        On::Auto => subject.starts_with("gpu:") || Language::of(Path::new(subject)).is_some(),
+        On::Auto => subject.starts_with("gpu:") || ShaderFile::of(subject).is_some(),
         On::Cpu | On::DeviceModel => subject.starts_with("gpu:"),
     }
 }

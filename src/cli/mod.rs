@@ -5,6 +5,7 @@
 //! | [`args`] | verbs, options and their help |
 //! | [`check`], [`compare`], [`eval`], [`explain`], [`render`], [`scenes`], [`shader`] | one job a verb |
 //! | [`scene_files`] | what a typed scene means |
+//! | [`shader_files`] | what a typed shader file means |
 //! | [`subjects`] | what a typed subject means, and where it runs |
 //! | [`rows`] | footprints as comma-separated text, read and written |
 //! | [`drivers`] | keeps drivers from writing to stderr |
@@ -29,12 +30,14 @@ mod rows;
 mod scene_files;
 mod scenes;
 mod shader;
+mod shader_files;
 mod subjects;
 
 pub use args::Args;
 
 use args::Verb;
 use failure::Failure;
+use hashed_alpha::shader::own::READER;
 use std::io::Write;
 use std::process::ExitCode;
 
@@ -49,6 +52,16 @@ pub enum Ending {
     Usage,
     /// There was nothing to judge.
     NoVerdict,
+}
+
+/// Keeps panics of the readers of shaders off stderr: they become messages with the name of the file.
+pub fn quiet_readers() {
+    let told = std::panic::take_hook();
+    std::panic::set_hook(Box::new(move |panic| {
+        if std::thread::current().name() != Some(READER) {
+            told(panic);
+        }
+    }));
 }
 
 /// Does what was asked for.

@@ -3,12 +3,13 @@
 use super::args::{On, ShaderArgs};
 use super::failure::Failure;
 use super::output;
+use super::shader_files::ShaderFile;
 use hashed_alpha::check::shaders;
 use hashed_alpha::check::{Subject, subject::Precision};
 use hashed_alpha::scene::{Fragment, Scene};
 use hashed_alpha::shader::assemble::ShaderOptions;
 use hashed_alpha::shader::interpreter::DeviceModel;
-use hashed_alpha::shader::own::{self, Language, OwnShader};
+use hashed_alpha::shader::own::{self, OwnShader};
 use hashed_alpha::threshold::robust::{Join, Robust};
 use hashed_alpha::threshold::two_scale::Variant;
 use std::path::Path;
@@ -18,8 +19,7 @@ use std::path::Path;
 pub fn subjects(typed: &[String], args: &ShaderArgs) -> Result<Vec<Subject<'static>>, Failure> {
     let mut found: Vec<Subject<'static>> = Vec::new();
     for word in typed {
-        let more =
-            if Language::of(Path::new(word)).is_some() { file(word, args) } else { built_in(word, args) }?;
+        let more = ShaderFile::of(word).map_or_else(|| built_in(word, args), |typed| file(&typed, args))?;
         for subject in more {
             if !found.iter().any(|other| other.name == subject.name && other.precision == subject.precision) {
                 found.push(subject);
@@ -36,7 +36,7 @@ pub fn is_in_rust(word: &str, on: On) -> bool {
         Some(("cpu", _)) => true,
         _ => matches!(on, On::Auto | On::Cpu),
     };
-    runs_here && Language::of(Path::new(word)).is_none()
+    runs_here && ShaderFile::of(word).is_none()
 }
 
 fn built_in(word: &str, args: &ShaderArgs) -> Result<Vec<Subject<'static>>, Failure> {
@@ -53,7 +53,7 @@ fn built_in(word: &str, args: &ShaderArgs) -> Result<Vec<Subject<'static>>, Fail
     if all.is_empty() {
         return Err(Failure::Usage(format!(
             "unknown subject `{word}`; known are paper:isotropic, paper:anisotropic, robust:isotropic, \
-             robust:anisotropic, each with gpu: before it too, and files that end in .wgsl, .glsl or .spv"
+             robust:anisotropic, each with gpu: before it too, and files that end in .wgsl, .glsl, .frag or .spv"
         )));
     }
     if matches!(on, On::Auto | On::Cpu) {
@@ -86,16 +86,10 @@ struct Claimed {
     frames: u32,
 }
 
-fn file(name: &str, args: &ShaderArgs) -> Result<Vec<Subject<'static>>, Failure> {
-    let mut options = own::Options { function: args.function.clone(), ..own::Options::default() };
-    for setting in &args.set {
-        let (key, value) = setting
-            .split_once('=')
-            .ok_or_else(|| Failure::Usage(format!("--set {setting}: write KEY=VALUE, as in hash_scale=2")))?;
-        options.settings.insert(key.trim().to_owned(), value.trim().to_owned());
-    }
+fn file(typed: &ShaderFile<'_>, args: &ShaderArgs) -> Result<Vec<Subject<'static>>, Failure> {
+    let options = typed.options(args)?;
     let hash_scale = options.settings.get("hash_scale").and_then(|value| value.parse().ok()).unwrap_or(1.0);
-    let shader = own::read(Path::new(name), &options)?;
+    let shader = own::read(Path::new(typed.path), &options)?;
     let preset = Robust::new(args.variant).join;
     let claims = Claimed {
         variant: args.variant,
@@ -104,19 +98,26 @@ fn file(name: &str, args: &ShaderArgs) -> Result<Vec<Subject<'static>>, Failure>
         hash_scale,
         frames: args.frames,
     };
-    stops(&shader, args.variant)?;
-    let name = Path::new(name).file_name().map_or_else(|| name.into(), |name| name.to_string_lossy());
-    placed(&name, &shader, args.on, args, &claims)
+    let name = typed.name();
+    let remarks = stops(&shader, args.variant)?;
+    let subjects = placed(&name, &shader, args.on, args, &claims)?;
+    if subjects.iter().any(|subject| subject.name.starts_with("gpu:")) {
+        // A device does not tell.
+        remarks.iter().for_each(|remark| output::remark("note", remark));
+    }
+    Ok(subjects)
 }
 
 /// Runs a few fragments in the interpreter: an endless loop comes to light there, before the first claim; drivers hang on
-/// it or leave it without a word.
-fn stops(shader: &OwnShader, variant: Variant) -> Result<(), Failure> {
+/// it or leave it without a word. Returns what else comes to light.
+fn stops(shader: &OwnShader, variant: Variant) -> Result<Vec<String>, Failure> {
     // What is not interpreted may still run on a device.
-    let Ok(subject) = shaders::interpreted("", shader, DeviceModel::ACCURATE, variant) else { return Ok(()) };
+    let Ok(subject) = shaders::interpreted("", shader, DeviceModel::ACCURATE, variant) else {
+        return Ok(Vec::new());
+    };
     let few: Vec<Fragment> = Scene::all()[0].footprints().step_by(4099).map(Fragment::from).collect();
     let _ = subject.thresholds(&few);
-    subject.failure().map_or(Ok(()), |reason| Err(Failure::Usage(reason.to_owned())))
+    subject.failure().map_or_else(|| Ok(subject.remarks()), |reason| Err(Failure::Usage(reason.to_owned())))
 }
 
 /// Puts a shader where it is wanted.
@@ -231,12 +232,5 @@ mod tests {
         assert_eq!(found.len(), DeviceModel::ALL.len());
         assert!(found.contains(&"half:listing_sine.wgsl f32".to_owned()), "{found:?}");
         assert_eq!(names(&[file], &["--on", "cpu"]).unwrap(), ["listing_sine.wgsl f32"]);
-    }
-
-    #[test]
-    fn a_setting_has_a_key_and_a_value() {
-        let file = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/shaders/listing_sine.wgsl");
-        let error = names(&[file], &["--set", "hash_scale"]).unwrap_err();
-        assert!(error.contains("write KEY=VALUE"), "{error}");
     }
 }

@@ -10,6 +10,7 @@ use super::model::DeviceModel;
 use super::op::{Block, Case, Op, Register, Step};
 use crate::threshold::batch::{BLOCK, Isa, isa::Job};
 use core::cell::Cell;
+use core::sync::atomic::{AtomicU64, Ordering};
 use naga::Span;
 
 /// Lanes of a block.
@@ -33,6 +34,10 @@ pub(super) struct Endless {
 pub(super) struct Machine<'a> {
     pub(super) registers: Vec<Column>,
     model: &'a DeviceModel,
+    /// How many lanes every oddity has been seen in, by all threads.
+    counts: &'a [AtomicU64],
+    /// The lanes that are asked for; those behind the last one repeat it.
+    pub(super) wanted: Lanes,
     isa: Isa,
     broken: Lanes,
     continued: Lanes,
@@ -40,10 +45,11 @@ pub(super) struct Machine<'a> {
 }
 
 impl<'a> Machine<'a> {
-    pub(super) fn new(registers: usize, model: &'a DeviceModel) -> Self {
+    pub(super) fn new(registers: usize, model: &'a DeviceModel, counts: &'a [AtomicU64]) -> Self {
         let zero = [const { Cell::new(0) }; LANES];
         let registers = vec![zero; registers];
-        Self { registers, model, isa: Isa::best(), broken: 0, continued: 0, steps_left: 0 }
+        let wanted = Lanes::MAX;
+        Self { registers, model, counts, wanted, isa: Isa::best(), broken: 0, continued: 0, steps_left: 0 }
     }
 
     #[inline(always)]
@@ -200,6 +206,12 @@ impl<'a> Machine<'a> {
                 for lane in (0..LANES).filter(|lane| active >> lane & 1 == 1) {
                     let register = first + column(offset)[lane].get();
                     column(register)[lane].set(column(from)[lane].get());
+                }
+            }
+            Op::Count { odd, oddity } => {
+                let lanes = kernel::lanes(column(odd), |word| word) & active & self.wanted;
+                if lanes != 0 {
+                    self.counts[oddity].fetch_add(u64::from(lanes.count_ones()), Ordering::Relaxed);
                 }
             }
         }

@@ -30,7 +30,8 @@
 //! towards zero and saturates, NaN becomes 0. `min`, `max` and `clamp` keep a NaN in their first argument and drop it
 //! from the others, as [`Real`](crate::threshold::real::Real) does. `fract` is `x - floor(x)` and can be 1. `fma`
 //! rounds once. `pow` of a negative number is NaN. Sums run from left to right. Of integers `x / 0` is `x`, `x % 0`
-//! is 0, overflow wraps, and a shift takes the distance modulo 32.
+//! is 0, overflow wraps, and a shift takes the distance modulo 32. Lanes with an index out of range, or an integer that is
+//! divided by zero, are counted ([`Program::oddities`]).
 //!
 //! **It ends**: a block of lanes has a number of steps ([`Program::steps`]); a loop that uses them up stops the run
 //! and is named ([`Stopped::Endless`]).
@@ -41,18 +42,22 @@ mod error;
 mod kernel;
 mod machine;
 mod model;
+mod oddity;
 mod op;
 
 pub use columns::{Column, Kind, Values};
 pub use error::{Stopped, Unsupported};
 pub use model::DeviceModel;
+pub use oddity::{Oddity, Open};
 
 use core::ops::Not;
+use core::sync::atomic::{AtomicU64, Ordering};
 use machine::{LANES, Machine};
-use naga::Module;
 use naga::valid::ModuleInfo;
+use naga::{Module, Span};
 use op::{Block, Register};
 use rayon::prelude::*;
+use std::sync::Arc;
 
 /// A function that is ready to run.
 #[derive(Clone, Debug)]
@@ -67,6 +72,9 @@ pub struct Program {
     constants: Vec<(Register, Constant)>,
     body: Block,
     registers: usize,
+    /// What can happen where, and in how many lanes it did; clones count together.
+    oddities: Vec<(Open, Span)>,
+    counts: Arc<[AtomicU64]>,
 }
 
 /// A parameter of a function.
@@ -111,6 +119,17 @@ impl Program {
         &self.result
     }
 
+    /// Returns what all runs so far met that the shading languages leave open, in the order of the function.
+    #[must_use]
+    pub fn oddities(&self) -> Vec<Oddity> {
+        let found = self.oddities.iter().zip(&*self.counts).map(|(&(open, span), count)| Oddity {
+            open,
+            span,
+            lanes: count.load(Ordering::Relaxed),
+        });
+        found.filter(|oddity| oddity.lanes > 0).collect()
+    }
+
     /// Runs the function on lanes `0..lanes` and returns one column a scalar of the result.
     ///
     /// `columns` holds one column for every scalar of every parameter, in order; a column of one value is that value
@@ -135,6 +154,8 @@ impl Program {
                     machine.round(register);
                 }
             }
+            let beyond = LANES.saturating_sub(lanes - block * LANES);
+            machine.wanted = machine::Lanes::MAX >> beyond;
             machine.run(&self.body, self.steps)?;
             for (&register, words) in self.results.iter().zip(words) {
                 for (word, lane) in words.iter_mut().zip(machine.column(register)) {
@@ -167,8 +188,8 @@ impl Program {
     }
 
     /// The registers of a thread, constants filled in.
-    fn machine<'a>(&self, model: &'a DeviceModel) -> Machine<'a> {
-        let machine = Machine::new(self.registers, model);
+    fn machine<'a>(&'a self, model: &'a DeviceModel) -> Machine<'a> {
+        let machine = Machine::new(self.registers, model, &self.counts);
         for &(register, constant) in &self.constants {
             machine.fill(register, constant.bits);
             if constant.float {

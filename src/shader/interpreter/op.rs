@@ -207,6 +207,11 @@ pub(super) enum Op {
         offset: Register,
         from: Register,
     },
+    /// Counts the active lanes where `odd` is true, for the oddity of that index.
+    Count {
+        odd: Register,
+        oddity: usize,
+    },
 }
 
 /// The contracted form of a sum.

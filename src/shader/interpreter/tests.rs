@@ -516,3 +516,32 @@ fn functions_of_glsl_run_too() {
     // 2.75 + (1 + 2 + 4 + 1) * 2, and the second column of ((1/2, 0), (-1/2, 1)) (2, 2)^T (p.x, -1) begins with 0.
     assert_eq!(values, [Values::F32(vec![18.75, -1.0])]);
 }
+
+#[test]
+fn what_languages_leave_open_is_counted_where_it_happens() {
+    let source = "fn pick(i: u32) -> u32 { var a = array<u32, 3>(7, 8, 9); return a[i]; }
+fn f(i: u32, d: i32) -> u32 {
+    var sum = pick(i) + pick(i + 1u);
+    if d != 5 { sum += u32(10 / d); }
+    return sum + i % 4u;
+}";
+    let program = compile(source).expect("it is interpreted");
+    let indices: Vec<u32> = (0..200).map(|lane| lane % 4).collect();
+    let divisors: Vec<i32> = (0..200).map(|lane| if lane % 10 == 0 { 0 } else { 5 }).collect();
+    let run = || program.run(&[Column::U32(&indices), Column::I32(&divisors)], 200, &DeviceModel::ACCURATE);
+    assert!(run().is_ok());
+    let found = |program: &Program| -> Vec<_> {
+        let said = |oddity: &Oddity| (oddity.open, &source[oddity.span.to_range().unwrap()], oddity.lanes);
+        program.oddities().iter().map(|oddity| (said(oddity).0, said(oddity).1.to_owned(), oddity.lanes)).collect()
+    };
+    // Index 3 in a quarter of the lanes; 3 and 4 of the other call in a half.
+    let index = (Open::Index, "a[i]".to_owned(), 150);
+    let division = (Open::Division, "10 / d".to_owned(), 20);
+    assert_eq!(found(&program), [index, division]);
+    assert!(run().is_ok());
+    assert_eq!(found(&program)[0].2, 300);
+    let sound = [Column::U32(&[1]), Column::I32(&[5])];
+    let fresh = compile(source).expect("it is interpreted");
+    assert!(fresh.run(&sound, 200, &DeviceModel::ACCURATE).is_ok());
+    assert_eq!(fresh.oddities(), []);
+}

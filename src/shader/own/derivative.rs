@@ -9,7 +9,7 @@ use naga::{
 };
 
 /// The variables that take the place of derivatives: along x, along y, and the sum of both without signs.
-const VARIABLES: [&str; 3] = ["screen_dx", "screen_dy", "screen_width"];
+pub(super) const VARIABLES: [&str; 3] = ["screen_dx", "screen_dy", "screen_width"];
 
 /// Declares the variables in GLSL; goes before the text.
 pub(super) const GLSL: &str = "vec3 screen_dx, screen_dy, screen_width;\n";
@@ -24,10 +24,8 @@ var<private> screen_width: vec3<f32>;
 /// Replaces `dFdx(position)` and its kin in the body of `function` by a variable, byte for byte, so that all else
 /// keeps its place. Returns whether there was any.
 ///
-/// # Errors
-///
-/// A derivative of anything else, or elsewhere: its value is not known.
-pub(super) fn replace(text: &mut [u8], tokens: &[Token], function: &str) -> Result<bool, Fault> {
+/// All others stay as they are, and are refused where the function comes to them ([`refuse_others`]).
+pub(super) fn replace(text: &mut [u8], tokens: &[Token], function: &str) -> bool {
     let mut found = false;
     for (index, token) in tokens.iter().enumerate() {
         let word = |at: usize| tokens.get(at).map_or(&b""[..], |token| &text[token.at.clone()]);
@@ -37,24 +35,13 @@ pub(super) fn replace(text: &mut [u8], tokens: &[Token], function: &str) -> Resu
             b"fwidth" | b"fwidthFine" | b"fwidthCoarse" => VARIABLES[2],
             _ => continue,
         };
-        // A parameter of that name, or a field.
-        if word(index + 1) != b"(" || index > 0 && word(index - 1) == b"." {
-            continue;
-        }
-        let close = match (word(index + 2), word(index + 3)) {
-            (b"position", b")") => index + 3,
-            (b"position", b".") if word(index + 5) == b")" => index + 5,
-            _ => {
-                let message = "only the derivatives of `position` are known here; for those of anything else add a \
-                               parameter and give it a value";
-                return Err(Fault::new(message).at(Some(token.at.clone())));
-            }
+        let close = match (word(index + 1), word(index + 2), word(index + 3)) {
+            (b"(", b"position", b")") => index + 3,
+            (b"(", b"position", b".") if word(index + 5) == b")" => index + 5,
+            _ => continue,
         };
         if token.function.is_none_or(|name| word(name) != function.as_bytes()) {
-            let message = format!(
-                "a derivative is known in the body of `{function}` only; hand it to other functions as a parameter"
-            );
-            return Err(Fault::new(message).at(Some(token.at.clone())));
+            continue;
         }
         let (start, argument) = (token.at.start, tokens[index + 2].at.end);
         text[start..argument].fill(b' ');
@@ -62,7 +49,37 @@ pub(super) fn replace(text: &mut [u8], tokens: &[Token], function: &str) -> Resu
         text[tokens[close].at.clone()].fill(b' ');
         found = true;
     }
-    Ok(found)
+    found
+}
+
+/// Refuses the derivatives that are left in a module of nothing but what the function on trial comes to; `its_name` is that
+/// of the function in the module, `function` what the user calls it.
+///
+/// # Errors
+///
+/// A derivative of anything but the position, or elsewhere: its value is not known.
+pub(super) fn refuse_others(module: &Module, its_name: &str, function: &str) -> Result<(), Fault> {
+    for (_, within) in module.functions.iter() {
+        let place = |expression| within.expressions.get_span(expression).to_range();
+        let derivatives = within.expressions.iter().filter_map(|(at, expression)| match *expression {
+            // The front end of GLSL knows the place of the argument alone.
+            Expression::Derivative { expr, .. } => Some(place(at).or_else(|| place(expr))),
+            _ => None,
+        });
+        let Some(at) = derivatives.min_by_key(|at| at.clone().map_or(0, |at| at.start)) else { continue };
+        let message = if within.name.as_deref() == Some(its_name) {
+            format!(
+                "only the derivatives of `position` are known here, written out in the body of `{function}`; for those of \
+                 anything else add a parameter and give it a value"
+            )
+        } else {
+            format!(
+                "a derivative is known in the body of `{function}` only; hand it to other functions as a parameter"
+            )
+        };
+        return Err(Fault::new(message).at(at));
+    }
+    Ok(())
 }
 
 /// Wraps `target` in a function that takes the derivatives as parameters `dpdx` and `dpdy` and fills the variables.

@@ -1,13 +1,15 @@
 //! From fragments to the values of parameters: as columns for the interpreter, as words for a device.
 
 use super::error::Fault;
-use super::{Binding, Input, OwnShader, ShaderError, Value, isolated};
+use super::isolated::isolated;
+use super::{Binding, Input, OwnShader, ShaderError, Value};
 use crate::scene::fragment::Fragment;
-use crate::shader::interpreter::{Column, DeviceModel, Program, Stopped, Values};
+use crate::shader::interpreter::{Column, DeviceModel, Oddity, Program, Stopped, Values};
 use core::fmt::Write as _;
 
 impl Input {
-    /// Returns one of the words that it takes in a fragment, one a scalar; floats by their bits, rounded to nearest.
+    /// Returns one of the words that it takes in a fragment, one a scalar; floats by their bits, rounded to nearest. A
+    /// constant has none.
     fn word(self, fragment: &Fragment, component: usize) -> u32 {
         let float = |value: f64| (value as f32).to_bits();
         let footprint = &fragment.footprint;
@@ -20,16 +22,17 @@ impl Input {
             Self::Lod => float(fragment.lod),
             Self::Frame => fragment.frame,
             Self::Layer => fragment.layer,
-            Self::Constant(value) => value.word(),
+            Self::Constant(_) => 0,
         }
     }
 
-    /// The number of words.
+    /// The number of words that differ from fragment to fragment.
     const fn size(self) -> usize {
         match self {
             Self::Position | Self::Dpdx | Self::Dpdy => 3,
             Self::Pixel | Self::Texcoord => 2,
-            Self::Lod | Self::Frame | Self::Layer | Self::Constant(_) => 1,
+            Self::Lod | Self::Frame | Self::Layer => 1,
+            Self::Constant(_) => 0,
         }
     }
 }
@@ -55,10 +58,14 @@ impl OwnShader {
         let mut columns = Vec::new();
         for Binding { input, .. } in &self.bindings {
             match *input {
-                Input::Constant(Value::F32(value)) => columns.push(Values::F32(vec![value])),
-                Input::Constant(Value::I32(value)) => columns.push(Values::I32(vec![value])),
-                Input::Constant(Value::U32(value)) => columns.push(Values::U32(vec![value])),
-                Input::Constant(Value::Bool(value)) => columns.push(Values::Bool(vec![value])),
+                Input::Constant(constant) => {
+                    columns.extend(constant.components().iter().map(|value| match *value {
+                        Value::F32(value) => Values::F32(vec![value]),
+                        Value::I32(value) => Values::I32(vec![value]),
+                        Value::U32(value) => Values::U32(vec![value]),
+                        Value::Bool(value) => Values::Bool(vec![value]),
+                    }))
+                }
                 Input::Frame | Input::Layer => {
                     columns.push(Values::U32(fragments.iter().map(|f| input.word(f, 0)).collect()));
                 }
@@ -100,6 +107,17 @@ impl OwnShader {
         }
     }
 
+    /// Returns what a program of [`OwnShader::program`] did so far that shading languages leave open, each with its place and
+    /// the number of evaluations.
+    #[must_use]
+    pub fn remarks(&self, program: &Program) -> Vec<String> {
+        let said = |Oddity { open, span, lanes }| {
+            let error = self.error_at(span, open.to_string());
+            format!("{error} ({lanes} times)")
+        };
+        program.oddities().into_iter().map(said).collect()
+    }
+
     /// Returns the module as WGSL text without bindings and entry points, whatever its language was.
     ///
     /// # Errors
@@ -122,7 +140,7 @@ impl OwnShader {
     /// Returns the number of words that a device is sent for one fragment; constants are not sent.
     #[must_use]
     pub fn words_per_fragment(&self) -> usize {
-        self.sent().map(Input::size).sum()
+        self.bindings.iter().map(|binding| binding.input.size()).sum()
     }
 
     /// Returns the words that a device is sent, fragment by fragment.
@@ -130,7 +148,7 @@ impl OwnShader {
     pub fn words(&self, fragments: &[Fragment]) -> Vec<u32> {
         let mut words = Vec::with_capacity(fragments.len() * self.words_per_fragment());
         for fragment in fragments {
-            for input in self.sent() {
+            for Binding { input, .. } in &self.bindings {
                 words.extend((0..input.size()).map(|component| input.word(fragment, component)));
             }
         }
@@ -148,24 +166,14 @@ impl OwnShader {
             // Writing to a string cannot fail.
             let _ = match input {
                 Input::Frame | Input::Layer => write!(call, "word({first}u), "),
-                Input::Constant(Value::F32(value)) => write!(call, "{value:?}f, "),
-                Input::Constant(Value::I32(value)) => write!(call, "i32({value}), "),
-                Input::Constant(Value::U32(value)) => write!(call, "{value}u, "),
-                Input::Constant(Value::Bool(value)) => write!(call, "{value}, "),
+                Input::Constant(constant) => write!(call, "{}, ", constant.wgsl()),
                 _ if numbers.len() == 1 => write!(call, "{}, ", numbers[0]),
                 _ => write!(call, "vec{}<f32>({}), ", numbers.len(), numbers.join(", ")),
             };
-            if !matches!(input, Input::Constant(_)) {
-                first += input.size();
-            }
+            first += input.size();
         }
         call.push(')');
         call
-    }
-
-    /// The inputs that differ from fragment to fragment.
-    fn sent(&self) -> impl Iterator<Item = Input> {
-        self.bindings.iter().map(|binding| binding.input).filter(|input| !matches!(input, Input::Constant(_)))
     }
 }
 

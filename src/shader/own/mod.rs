@@ -1,61 +1,42 @@
 //! A user's own shader: read, checked, and brought into the form that the interpreter and a device take.
 //!
 //! A WGSL file is parsed and validated alone, so that a message names the user's own line and column. GLSL may come as
-//! engines write it, see the list in `glsl.rs`. SPIR-V is read so that what is exported can be read back. Of a module
+//! engines write it, see the list in `glsl/prepare.rs`. SPIR-V is read so that what is exported can be read back. Of a module
 //! only the function and what it calls is kept; uniforms and overrides that it reads get the values that the user gives.
 
 mod derivative;
 mod error;
 mod feed;
+mod front;
 mod glsl;
-mod macros;
+mod invalid;
+mod isolated;
+mod language;
 mod nesting;
 mod reduce;
 mod scan;
 mod setting;
 mod signature;
+mod variables;
+mod wgsl;
 
 pub use error::{Place, ShaderError};
-pub use setting::Value;
+pub use isolated::READER;
+pub use language::Language;
+pub use setting::{Constant, Value};
 pub use signature::{Binding, Input};
 
 use super::assemble::{SAMPLE_INDEX, ShaderOptions, assemble};
-use core::ops::Range;
 use error::Fault;
-use naga::valid::{Capabilities, FunctionError, ModuleInfo, ValidationError, ValidationFlags, Validator};
-use naga::{Block, Expression, Handle, Module, Span, Statement};
+use isolated::isolated;
+use naga::valid::ModuleInfo;
+use naga::{Module, Span};
 use std::collections::BTreeMap;
 use std::io::Read;
 use std::path::Path;
-use std::sync::mpsc::{RecvTimeoutError, channel};
-use std::time::Duration;
 
 /// The largest file that is read.
 pub const LARGEST_FILE: u64 = 4 << 20;
-
-/// The language of a shader file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Language {
-    /// WGSL: `.wgsl`.
-    Wgsl,
-    /// GLSL of any version: `.glsl`, `.frag`, `.vert`, `.comp`, `.fs`, `.vs`.
-    Glsl,
-    /// SPIR-V: `.spv`.
-    SpirV,
-}
-
-impl Language {
-    /// Returns the language that the ending of a file name stands for.
-    #[must_use]
-    pub fn of(path: &Path) -> Option<Self> {
-        match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
-            "wgsl" => Some(Self::Wgsl),
-            "glsl" | "frag" | "vert" | "comp" | "fs" | "vs" => Some(Self::Glsl),
-            "spv" => Some(Self::SpirV),
-            _ => None,
-        }
-    }
-}
 
 /// What is asked of a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -140,15 +121,15 @@ pub fn parse(
         let front = match language {
             Language::Wgsl => {
                 text = text_of(bytes)?;
-                read_wgsl(text, &options.function)
+                wgsl::read(text, &options.function)
             }
             Language::Glsl => {
                 text = text_of(bytes)?;
-                read_glsl(text, options, &mut prelude)
+                glsl::read(text, options, &mut prelude)
             }
             Language::SpirV => {
                 let bytes = bytes.to_vec();
-                isolated(move || read_spir_v(&bytes))
+                isolated(move || front::read_spir_v(&bytes))
             }
         }?;
         let options = options.clone();
@@ -209,175 +190,4 @@ impl OwnShader {
 fn place(text: &str, prelude: usize, offset: usize) -> Option<Place> {
     let offset = offset.checked_sub(prelude).filter(|_| !text.is_empty())?;
     Some(Place::of(text, offset))
-}
-
-/// A module as its front end read it.
-struct Front {
-    module: Module,
-    /// Names of variables that wait for a value.
-    uniforms: Vec<String>,
-    /// Names of variables with an initial value in the text.
-    initialised: Vec<String>,
-    /// Settings that were macros.
-    defined: Vec<String>,
-    has_derivatives: bool,
-}
-
-impl Front {
-    fn plain(module: Module, has_derivatives: bool) -> Self {
-        Self { module, uniforms: Vec::new(), initialised: Vec::new(), defined: Vec::new(), has_derivatives }
-    }
-}
-
-/// Runs naga on a stack of its own, for a limited time: it descends as the text nests, and where it panics or does not
-/// come to an end that is a message.
-fn isolated<T: Send + 'static>(run: impl FnOnce() -> Result<T, Fault> + Send + 'static) -> Result<T, Fault> {
-    const STACK: usize = 256 << 20;
-    const PATIENCE: Duration = Duration::from_secs(60);
-    let (send, outcome) = channel();
-    let work = move || {
-        // Nobody listens any more where the time is over.
-        let _ = send.send(run());
-    };
-    std::thread::Builder::new()
-        .stack_size(STACK)
-        .spawn(work)
-        .map_err(|error| Fault::new(format!("no thread to read it on: {error}")))?;
-    outcome.recv_timeout(PATIENCE).unwrap_or_else(|error| {
-        Err(Fault::new(match error {
-            RecvTimeoutError::Disconnected => {
-                "naga, which reads shaders here, gave up on it without a message".to_owned()
-            }
-            RecvTimeoutError::Timeout => {
-                format!("naga, which reads shaders here, did not come to an end in {PATIENCE:?}")
-            }
-        }))
-    })
-}
-
-fn read_wgsl(text: &str, function: &str) -> Result<Front, Fault> {
-    let tokens = scan::tokens(text)?;
-    let mut bytes = text.as_bytes().to_vec();
-    blank_imports(&mut bytes, &tokens)?;
-    let has_derivatives = derivative::replace(&mut bytes, &tokens, function)?;
-    // Only ASCII was replaced, by ASCII.
-    let mut prepared = String::from_utf8_lossy(&bytes).into_owned();
-    if has_derivatives {
-        prepared.push_str(derivative::WGSL);
-    }
-    isolated(move || {
-        let module = naga::front::wgsl::parse_str(&prepared).map_err(|error| {
-            let at = error.labels().next().and_then(|(span, _)| span.to_range());
-            let labels =
-                error.labels().filter(|(_, label)| !label.is_empty()).map(|(_, label)| label.to_owned());
-            let notes = error.notes().map(str::to_owned);
-            Fault::new(joined(error.message(), labels.chain(notes))).at(at)
-        })?;
-        validate(&module)?;
-        Ok(Front::plain(module, has_derivatives))
-    })
-}
-
-/// Blanks the lines by which an engine puts a WGSL file together, `#import` and `#define_import_path`; what they bring is
-/// not here.
-fn blank_imports(bytes: &mut [u8], tokens: &[scan::Token]) -> Result<(), Fault> {
-    let word =
-        |bytes: &[u8], at: usize| tokens.get(at).map_or(Vec::new(), |token| bytes[token.at.clone()].to_vec());
-    for (index, token) in tokens.iter().enumerate() {
-        if word(bytes, index) != b"#" {
-            continue;
-        }
-        if !matches!(&word(bytes, index + 1)[..], b"import" | b"define_import_path") {
-            let message = "WGSL has no directives; those of an engine are to be carried out before";
-            return Err(Fault::new(message).at(Some(token.at.clone())));
-        }
-        let line = bytes[token.at.start..].iter().position(|&byte| byte == b'\n');
-        let mut end = line.map_or(bytes.len(), |length| token.at.start + length);
-        if bytes[token.at.start..end].contains(&b'{') {
-            // A list may go over several lines.
-            let close = bytes[token.at.start..].iter().position(|&byte| byte == b'}');
-            end = end.max(close.map_or(bytes.len(), |length| token.at.start + length + 1));
-        }
-        bytes[token.at.start..end]
-            .iter_mut()
-            .filter(|byte| !byte.is_ascii_whitespace())
-            .for_each(|byte| *byte = b' ');
-    }
-    Ok(())
-}
-
-fn read_glsl(text: &str, asked: &Options, prelude: &mut usize) -> Result<Front, Fault> {
-    let prepared = glsl::prepare(text, &asked.function, &asked.settings)?;
-    *prelude = prepared.prelude;
-    // What was prepared has the user's bytes at the user's places; the prelude is not there yet.
-    isolated(move || {
-        let mut options = naga::front::glsl::Options::from(naga::ShaderStage::Fragment);
-        options.defines.extend(prepared.defines.iter().cloned());
-        let module =
-            naga::front::glsl::Frontend::default().parse(&options, &prepared.text).map_err(|errors| {
-                let first = errors.errors.first();
-                let at = first.and_then(|error| error.meta.to_range());
-                Fault::new(first.map_or("it is no GLSL".to_owned(), |error| error.kind.to_string())).at(at)
-            })?;
-        validate(&module)?;
-        let glsl::Prepared { uniforms, initialised, has_derivatives, defines, .. } = prepared;
-        let defined = defines.into_iter().map(|(name, _)| name).collect();
-        Ok(Front { module, uniforms, initialised, defined, has_derivatives })
-    })
-}
-
-fn read_spir_v(bytes: &[u8]) -> Result<Front, Fault> {
-    let options = naga::front::spv::Options { strict_capabilities: false, ..Default::default() };
-    let module =
-        naga::front::spv::parse_u8_slice(bytes, &options).map_err(|error| Fault::new(error.to_string()))?;
-    validate(&module)?;
-    Ok(Front::plain(module, false))
-}
-
-fn validate(module: &Module) -> Result<ModuleInfo, Fault> {
-    Validator::new(ValidationFlags::all(), Capabilities::empty()).validate(module).map_err(|error| {
-        if let Some(fault) = wrong_result(module, error.as_inner()) {
-            return fault;
-        }
-        // The shortest is the innermost.
-        let at = error.spans().filter_map(|(span, _)| span.to_range()).min_by_key(ExactSizeIterator::len);
-        let mut causes = Vec::new();
-        let mut cause = core::error::Error::source(error.as_inner());
-        while let Some(next) = cause {
-            causes.push(next.to_string());
-            cause = next.source();
-        }
-        Fault::new(joined(&error.as_inner().to_string(), causes)).at(at)
-    })
-}
-
-/// A value of a wrong type behind `return`: naga names the value by a number, and its place wherever it comes from.
-fn wrong_result(module: &Module, error: &ValidationError) -> Option<Fault> {
-    let ValidationError::Function { handle, name, source } = error else { return None };
-    let FunctionError::InvalidReturnType { expression, expected_ty } = source else { return None };
-    let declared = expected_ty.map_or("nothing".to_owned(), |ty| signature::described(module, ty));
-    let at = return_of(&module.functions[*handle].body, *expression);
-    Some(Fault::new(format!("`{name}` returns a value of another type than {declared}")).at(at))
-}
-
-/// Finds where a value is returned.
-fn return_of(block: &Block, wanted: Option<Handle<Expression>>) -> Option<Range<usize>> {
-    block.span_iter().find_map(|(statement, span)| match statement {
-        Statement::Return { value } if *value == wanted => span.to_range(),
-        Statement::Block(inner) => return_of(inner, wanted),
-        Statement::If { accept, reject, .. } => {
-            return_of(accept, wanted).or_else(|| return_of(reject, wanted))
-        }
-        Statement::Switch { cases, .. } => cases.iter().find_map(|case| return_of(&case.body, wanted)),
-        Statement::Loop { body, continuing, .. } => {
-            return_of(body, wanted).or_else(|| return_of(continuing, wanted))
-        }
-        _ => None,
-    })
-}
-
-fn joined(message: &str, rest: impl IntoIterator<Item = String>) -> String {
-    let mut parts = vec![message.to_owned()];
-    parts.extend(rest.into_iter().filter(|part| part != message));
-    parts.join(": ")
 }

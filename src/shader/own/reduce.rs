@@ -1,17 +1,15 @@
 //! From a whole module to one function whose every input has a value.
 
 use super::error::Fault;
-use super::setting::Value;
+use super::front::Front;
+use super::invalid::validate;
 use super::signature::{self, Binding};
-use super::{Front, Options, derivative, validate};
-use naga::back::PipelineConstants;
+use super::variables::{fill_uniforms, overrides, refuse_resources, refuse_undefined};
+use super::{Options, derivative};
 use naga::back::pipeline_constants::{PipelineConstantError, process_overrides};
 use naga::valid::ModuleInfo;
-use naga::{
-    AddressSpace, Block, EntryPoint, Expression, Function, Handle, Module, ShaderStage, Span, Statement,
-    TypeInner,
-};
-use std::collections::{BTreeMap, BTreeSet};
+use naga::{Block, EntryPoint, Expression, Function, Handle, Module, ShaderStage, Span, Statement};
+use std::collections::BTreeMap;
 
 /// What is left of a module.
 pub(super) struct Reduced {
@@ -29,11 +27,11 @@ const PREFIX: &str = "its_";
 
 /// Keeps the function that is asked for and what it reads, with every value filled in.
 pub(super) fn reduce(front: Front, options: &Options) -> Result<Reduced, Fault> {
-    let Front { mut module, uniforms, initialised, defined, has_derivatives } = front;
+    let Front { mut module, filled, uniforms, defined, functions, begins_undefined, has_derivatives } = front;
     let mut settings = options.settings.clone();
     settings.retain(|name, _| !defined.contains(name));
-    let stage_inputs = filled_before_main(&module, &initialised);
-    let mut target = find(&module, &options.function)?;
+    let mut target = find(&module, &options.function, &functions)?;
+    let its_name = if has_derivatives { prefixed(Some(options.function.clone())) } else { NAME.to_owned() };
     if has_derivatives {
         target = derivative::wrap(&mut module, target);
     }
@@ -62,13 +60,21 @@ pub(super) fn reduce(front: Front, options: &Options) -> Result<Reduced, Fault> 
     let mut module = module.into_owned();
     naga::compact::compact(&mut module, naga::compact::KeepUnused::No);
     module.entry_points.clear();
-    refuse_resources(&module, &stage_inputs, &uniforms)?;
+    derivative::refuse_others(&module, &its_name, &options.function)?;
+    refuse_resources(&module, &filled, &uniforms)?;
+    if begins_undefined {
+        refuse_undefined(&module, &options.function)?;
+    }
     rename_the_rest(&mut module);
     let info = validate(&module)?;
     Ok(Reduced { module, info, function: NAME.to_owned(), bindings })
 }
 
-fn find(module: &Module, name: &str) -> Result<Handle<Function>, Fault> {
+fn find(
+    module: &Module,
+    name: &str,
+    functions: &BTreeMap<String, Option<String>>,
+) -> Result<Handle<Function>, Fault> {
     let mut named = module
         .functions
         .iter()
@@ -78,84 +84,28 @@ fn find(module: &Module, name: &str) -> Result<Handle<Function>, Fault> {
         (Some(function), None) => Ok(function),
         (Some(_), Some(second)) => Err(Fault::new(format!("there are several functions `{name}`"))
             .at(module.functions.get_span(second).to_range())),
-        (None, _) => {
-            let known: BTreeSet<_> = module
-                .functions
-                .iter()
-                .filter_map(|(_, function)| function.name.as_deref())
-                .filter(|&name| name != "main")
-                .collect();
-            let known: Vec<_> = known.into_iter().collect();
-            let known = if known.is_empty() { "none".to_owned() } else { known.join(", ") };
-            Err(Fault::new(format!(
-                "there is no function `{name}`; functions are {known}; {}",
-                signature::allowed()
-            )))
-        }
+        (None, _) => Err(Fault::new(absent(name, functions))),
     }
 }
 
-/// Variables of a GLSL file that get their value before `main` starts: inputs of the stage, and those whose initial value
-/// naga could not compute.
-fn filled_before_main(module: &Module, initialised: &[String]) -> BTreeSet<String> {
-    let mut names = BTreeSet::new();
-    for (_, variable) in module.global_variables.iter() {
-        let name = variable.name.clone().filter(|name| variable.init.is_none() && initialised.contains(name));
-        names.extend(name);
+/// Says that a function is not there, why not, and which ones are.
+fn absent(name: &str, functions: &BTreeMap<String, Option<String>>) -> String {
+    if let Some(Some(condition)) = functions.get(name) {
+        return format!(
+            "there is no function `{name}` here: it stands behind `{condition}`; --set NAME=VALUE defines a macro that a \
+             condition asks for"
+        );
     }
-    for entry in &module.entry_points {
-        for statement in entry.function.body.iter() {
-            if let Statement::Store { pointer, .. } = *statement
-                && let Expression::GlobalVariable(variable) = entry.function.expressions[pointer]
-            {
-                names.extend(module.global_variables[variable].name.clone());
-            }
-        }
-    }
-    names
-}
-
-/// Makes uniforms of one value private variables that begin with that value. Those without a value stay, and are
-/// refused where the function reads them.
-fn fill_uniforms(
-    module: &mut Module,
-    uniforms: &[String],
-    settings: &mut BTreeMap<String, String>,
-) -> Result<(), Fault> {
-    for (_, variable) in module.global_variables.iter_mut() {
-        let Some(name) = variable.name.clone() else { continue };
-        let is_uniform = variable.space == AddressSpace::Uniform || uniforms.contains(&name);
-        let TypeInner::Scalar(scalar) = module.types[variable.ty].inner else { continue };
-        if !is_uniform {
-            continue;
-        }
-        let written = match settings.remove(&name) {
-            Some(written) => written,
-            None if name == "hash_scale" && variable.init.is_none() => "1".to_owned(),
-            None => continue,
-        };
-        let value = Value::parse(scalar, &written).map_err(|error| Fault::new(format!("{name}: {error}")))?;
-        let literal = module.global_expressions.append(Expression::Literal(value.literal()), Span::UNDEFINED);
-        variable.space = AddressSpace::Private;
-        variable.binding = None;
-        variable.init = Some(literal);
-    }
-    Ok(())
-}
-
-/// Returns the values of overrides by the keys that naga knows them by.
-fn overrides(module: &Module, settings: &mut BTreeMap<String, String>) -> Result<PipelineConstants, Fault> {
-    let mut values = PipelineConstants::default();
-    for (handle, constant) in module.overrides.iter() {
-        let Some(name) = &constant.name else { continue };
-        let TypeInner::Scalar(scalar) = module.types[constant.ty].inner else { continue };
-        let Some(written) = settings.remove(name) else { continue };
-        let at = module.overrides.get_span(handle).to_range();
-        let value =
-            Value::parse(scalar, &written).map_err(|error| Fault::new(format!("{name}: {error}")).at(at))?;
-        values.insert(constant.id.map_or_else(|| name.clone(), |id| id.to_string()), value.to_f64());
-    }
-    Ok(values)
+    let known = functions.iter().map(|(function, condition)| match condition {
+        Some(condition) => format!("{function} (behind `{condition}`)"),
+        None => function.clone(),
+    });
+    let known: Vec<_> = known.collect();
+    let known = if known.is_empty() { "none".to_owned() } else { known.join(", ") };
+    format!(
+        "there is no function `{name}`; --function NAME takes one of another name; functions are {known}; {}",
+        signature::allowed()
+    )
 }
 
 fn rename_functions(module: &mut Module, target: Handle<Function>) {
@@ -216,36 +166,4 @@ fn keep_only(module: &mut Module, target: Handle<Function>) {
         task_payload: None,
         incoming_ray_payload: None,
     }];
-}
-
-/// Refuses what a function by itself cannot read.
-fn refuse_resources(
-    module: &Module,
-    stage_inputs: &BTreeSet<String>,
-    uniforms: &[String],
-) -> Result<(), Fault> {
-    for (handle, variable) in module.global_variables.iter() {
-        let name = variable.name.as_deref().unwrap_or("a variable");
-        let kind = signature::described(module, variable.ty);
-        let problem = if variable.space == AddressSpace::Uniform
-            || uniforms.iter().any(|uniform| uniform == name) && variable.init.is_none()
-        {
-            format!(
-                "uniform `{name}` has no value: --set {name}=VALUE gives one to f32, i32, u32 and bool; this is {kind}"
-            )
-        } else if variable.space != AddressSpace::Private {
-            format!(
-                "`{name}` is a texture, buffer or shared memory, which is not there when the function runs alone"
-            )
-        } else if stage_inputs.contains(name) {
-            format!(
-                "`{name}` is filled before `main` starts, as an input or by a computed initial value, but `main` does not \
-                 run; make it a parameter or a constant"
-            )
-        } else {
-            continue;
-        };
-        return Err(Fault::new(problem).at(module.global_variables.get_span(handle).to_range()));
-    }
-    Ok(())
 }

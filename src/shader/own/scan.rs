@@ -26,6 +26,8 @@ pub(super) fn tokens(text: &str) -> Result<Vec<Token>, Fault> {
     let (mut braces, mut parentheses) = (0_usize, 0_usize);
     let mut nesting = Nesting::default();
     let (mut named, mut function) = (None, None);
+    // What is open where a condition of a preprocessor begins: each of its branches begins there.
+    let mut conditions = Vec::new();
     let mut start = 0;
     while start < bytes.len() {
         let rest = &bytes[start..];
@@ -57,7 +59,8 @@ pub(super) fn tokens(text: &str) -> Result<Vec<Token>, Fault> {
         match bytes[start] {
             b'(' => {
                 if braces == 0 && parentheses == 0 {
-                    named = tokens.len().checked_sub(1);
+                    let is_name = |&name: &usize| &text[tokens[name].at.clone()] != "layout";
+                    named = tokens.len().checked_sub(1).filter(is_name);
                 }
                 parentheses += 1;
             }
@@ -77,6 +80,18 @@ pub(super) fn tokens(text: &str) -> Result<Vec<Token>, Fault> {
             b';' if braces == 0 => named = None,
             _ => {}
         }
+        if tokens.last().is_some_and(|last| &text[last.at.clone()] == "#") {
+            match &text[at.clone()] {
+                "if" | "ifdef" | "ifndef" => conditions.push((braces, parentheses, named, function)),
+                "elif" | "else" => {
+                    if let Some(&open) = conditions.last() {
+                        (braces, parentheses, named, function) = open;
+                    }
+                }
+                "endif" => drop(conditions.pop()),
+                _ => {}
+            }
+        }
         nesting.see(&text[at.clone()]).map_err(|message| Fault::new(message).at(Some(at.clone())))?;
         tokens.push(Token { at, parentheses, function });
         start += length;
@@ -87,6 +102,22 @@ pub(super) fn tokens(text: &str) -> Result<Vec<Token>, Fault> {
 /// The bytes up to the first `end`, or all.
 fn until(bytes: &[u8], end: &[u8]) -> usize {
     bytes.windows(end.len()).position(|window| window == end).unwrap_or(bytes.len())
+}
+
+/// Says of a text that ends too early what is open at its end; nothing where all is closed.
+pub(super) fn end_of_file(text: &str, tokens: &[Token]) -> Option<Fault> {
+    let mut open = Vec::new();
+    for token in tokens {
+        match &text[token.at.clone()] {
+            "(" | "[" | "{" => open.push(token.at.clone()),
+            ")" | "]" | "}" => {
+                open.pop();
+            }
+            _ => {}
+        }
+    }
+    let at = open.pop()?;
+    Some(Fault::new(format!("the file ends before this `{}` is closed", &text[at.clone()])).at(Some(at)))
 }
 
 #[cfg(test)]
@@ -101,6 +132,14 @@ mod tests {
         assert_eq!(tokens[word("return")].function, Some(word("a")));
         assert_eq!(tokens[word("d")].function, None);
         assert!(!tokens.iter().any(|token| matches!(&text[token.at.clone()], "b" | "c")));
+    }
+
+    #[test]
+    fn branches_of_a_condition_begin_alike() {
+        let text = "#ifdef A\nfloat a() {\n#else\nfloat b() {\n#endif\nreturn 1.0; }\nfloat c;";
+        let tokens = tokens(text).unwrap();
+        let last = tokens.last().unwrap();
+        assert_eq!((&text[last.at.clone()], last.function), (";", None));
     }
 
     #[test]
@@ -120,6 +159,14 @@ mod tests {
         assert!(tokens(&"vec2(-0.5, 0.25), ".repeat(9_000)).is_ok());
         assert!(tokens(&"x += 1.0 - y;".repeat(9_000)).is_ok());
         assert!(tokens(&"#define X (x + 1.0)\n".repeat(9_000)).is_ok());
+    }
+
+    #[test]
+    fn what_is_open_at_the_end_is_named() {
+        let at = |text: &str| end_of_file(text, &tokens(text).unwrap()).map(|fault| fault.at.unwrap());
+        assert_eq!(at("f(a) { b[1]"), Some(5..6));
+        assert_eq!(at("f(a) { b[1"), Some(8..9));
+        assert_eq!(at("f(a) { b[1] }"), None);
     }
 
     #[test]

@@ -1,6 +1,83 @@
 //! Values that a user gives by name: `--set KEY=VALUE`.
 
-use naga::{Literal, Scalar, ScalarKind};
+use naga::{Literal, Scalar, ScalarKind, TypeInner};
+
+/// A number or a vector that is the same in every fragment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Constant {
+    /// The components, repeated behind the last.
+    values: [Value; 4],
+    size: usize,
+}
+
+impl From<Value> for Constant {
+    fn from(value: Value) -> Self {
+        Self { values: [value; 4], size: 1 }
+    }
+}
+
+impl Constant {
+    /// Returns the components: one of a number, two to four of a vector.
+    #[must_use]
+    pub fn components(&self) -> &[Value] {
+        &self.values[..self.size]
+    }
+
+    /// Returns it as WGSL says it.
+    #[must_use]
+    pub fn wgsl(&self) -> String {
+        let [first, ..] = self.values;
+        if self.size == 1 {
+            return first.wgsl();
+        }
+        let components: Vec<_> = self.components().iter().map(|value| value.wgsl()).collect();
+        format!("vec{}<{}>({})", self.size, first.type_name(), components.join(", "))
+    }
+
+    /// Says how a value of a type is written; nothing for a type that cannot be set.
+    pub(super) fn form(inner: &TypeInner) -> Option<String> {
+        let (size, scalar) = parts(inner)?;
+        let is_settable = scalar.width == 4 || scalar.kind == ScalarKind::Bool;
+        is_settable
+            .then(|| if size == 1 { "VALUE".to_owned() } else { ["X", "Y", "Z", "W"][..size].join(",") })
+    }
+
+    /// Reads a value of a type from what a user wrote for `name`.
+    ///
+    /// # Errors
+    ///
+    /// Something else than a number, and another number of them than the type has; with the name and the type.
+    pub(super) fn parse(name: &str, inner: &TypeInner, written: &str) -> Result<Self, String> {
+        let unsettable = || {
+            format!(
+                "`{name}` is of a type that cannot be set: only numbers of 32 bits, bool, and vectors of them"
+            )
+        };
+        let (form, (size, scalar)) = Self::form(inner).zip(parts(inner)).ok_or_else(unsettable)?;
+        let parts: Vec<_> = if size == 1 { vec![written] } else { written.split(',').collect() };
+        if parts.len() != size {
+            return Err(format!(
+                "`{name}` is vec{size}<{}> and takes {size} values, --set {name}={form}, not {}",
+                type_name(scalar),
+                parts.len()
+            ));
+        }
+        let mut values = Vec::new();
+        for part in parts {
+            values.push(Value::parse(scalar, part).map_err(|error| format!("`{name}`: {error}"))?);
+        }
+        Ok(Self { values: core::array::from_fn(|at| values[at.min(size - 1)]), size })
+    }
+}
+
+/// The number of components of a number or a vector, and what they are.
+fn parts(inner: &TypeInner) -> Option<(usize, Scalar)> {
+    match *inner {
+        TypeInner::Scalar(scalar) => Some((1, scalar)),
+        TypeInner::Vector { size, scalar } => Some((size as usize, scalar)),
+        _ => None,
+    }
+}
 
 /// A value of a scalar type of WGSL.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,14 +128,21 @@ impl Value {
         }
     }
 
-    /// The value as a word of a buffer: its bits; 1 for true.
-    #[must_use]
-    pub fn word(self) -> u32 {
+    fn wgsl(self) -> String {
         match self {
-            Self::F32(value) => value.to_bits(),
-            Self::I32(value) => value as u32,
-            Self::U32(value) => value,
-            Self::Bool(value) => u32::from(value),
+            Self::F32(value) => format!("{value:?}f"),
+            Self::I32(value) => format!("i32({value})"),
+            Self::U32(value) => format!("{value}u"),
+            Self::Bool(value) => value.to_string(),
+        }
+    }
+
+    const fn type_name(self) -> &'static str {
+        match self {
+            Self::F32(_) => "f32",
+            Self::I32(_) => "i32",
+            Self::U32(_) => "u32",
+            Self::Bool(_) => "bool",
         }
     }
 }

@@ -1,8 +1,8 @@
 //! The parameters that a user's function may have, and where their values come from.
 
 use super::error::Fault;
-use super::setting::{Value, type_name};
-use naga::{Function, Handle, Module, Scalar, TypeInner, VectorSize};
+use super::setting::{Constant, type_name};
+use naga::{Function, Handle, Module, TypeInner};
 use std::collections::BTreeMap;
 
 /// Where the value of a parameter comes from.
@@ -25,7 +25,7 @@ pub enum Input {
     /// `layer`: the index of the surface along the line of sight.
     Layer,
     /// The same in every fragment: `hash_scale`, and every parameter of another name.
-    Constant(Value),
+    Constant(Constant),
 }
 
 /// A parameter of the function and the source of its value.
@@ -52,8 +52,8 @@ const FRAGMENT: [(&str, &str, Input); 8] = [
 pub(super) fn allowed() -> String {
     let list: Vec<_> = FRAGMENT.iter().map(|(name, wgsl_type, _)| format!("{name}: {wgsl_type}")).collect();
     format!(
-        "it returns f32 (float), and its parameters are any of {}, hash_scale: f32, in any order, and f32, i32, u32 or \
-         bool of other names whose value is given by --set NAME=VALUE",
+        "it returns f32 (float), and its parameters are any of {}, hash_scale: f32, in any order, and numbers or \
+         vectors of other names whose value is given by --set NAME=VALUE",
         list.join(", ")
     )
 }
@@ -88,24 +88,23 @@ pub(super) fn bind(
             }
             input
         } else {
-            let TypeInner::Scalar(scalar) = module.types[argument.ty].inner else {
+            let inner = &module.types[argument.ty].inner;
+            let Some(wanted) = Constant::form(inner) else {
                 let message = format!("parameter `{parameter}` of `{name}` is {found}; {}", allowed());
                 return Err(fault(message));
             };
             let written = match settings.remove(&parameter) {
                 Some(written) => written,
-                None if parameter == "hash_scale" => "1".to_owned(),
+                None if parameter == "hash_scale" && found == "f32" => "1".to_owned(),
                 None => {
                     let message = format!(
-                        "parameter `{parameter}` of `{name}` has no value: --set {parameter}=VALUE; {}",
+                        "parameter `{parameter}` of `{name}` has no value: --set {parameter}={wanted}; {}",
                         allowed()
                     );
                     return Err(fault(message));
                 }
             };
-            Input::Constant(
-                Value::parse(scalar, &written).map_err(|error| fault(format!("{parameter}: {error}")))?,
-            )
+            Input::Constant(Constant::parse(&parameter, inner, &written).map_err(fault)?)
         };
         bindings.push(Binding { name: parameter, input });
     }
@@ -114,17 +113,22 @@ pub(super) fn bind(
 
 /// The name of a type in messages.
 pub(super) fn described(module: &Module, ty: Handle<naga::Type>) -> String {
-    match module.types[ty].inner {
+    module.types[ty].name.clone().unwrap_or_else(|| described_inner(module, &module.types[ty].inner))
+}
+
+/// The same of a type that has no name of its own.
+pub(super) fn described_inner(module: &Module, inner: &TypeInner) -> String {
+    match *inner {
         TypeInner::Scalar(scalar) => type_name(scalar).to_owned(),
-        TypeInner::Vector { size, scalar } => vector(size, scalar),
+        TypeInner::Vector { size, scalar } => format!("vec{}<{}>", size as u8, type_name(scalar)),
+        TypeInner::Matrix { columns, rows, scalar } => {
+            format!("mat{}x{}<{}>", columns as u8, rows as u8, type_name(scalar))
+        }
+        TypeInner::Array { base, .. } => format!("an array of {}", described(module, base)),
         TypeInner::Pointer { .. } | TypeInner::ValuePointer { .. } => {
             "a pointer (an `out` or `inout`)".to_owned()
         }
         TypeInner::Image { .. } | TypeInner::Sampler { .. } => "a texture or sampler".to_owned(),
-        _ => module.types[ty].name.clone().unwrap_or_else(|| "neither a number nor a vector".to_owned()),
+        _ => "neither a number nor a vector".to_owned(),
     }
-}
-
-fn vector(size: VectorSize, scalar: Scalar) -> String {
-    format!("vec{}<{}>", size as u8, type_name(scalar))
 }

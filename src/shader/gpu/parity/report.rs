@@ -1,6 +1,6 @@
 //! What one device makes of every stage.
 
-use super::{Agreement, Class, STAGES};
+use super::{Agreement, Class, stages};
 use crate::shader::gpu::{Device, Error};
 use core::fmt;
 
@@ -34,7 +34,7 @@ impl Report {
     /// Those of [`Program::map`](crate::shader::gpu::Program::map).
     pub fn of(device: &Device, count: u32) -> Result<Self, Error> {
         let mut rows = Vec::new();
-        for stage in STAGES.iter().filter(|stage| stage.class != Class::Law) {
+        for stage in stages().filter(|stage| stage.class != Class::Law) {
             let outputs = stage.outputs(device, &stage.kernel()?, count)?;
             let agreement = stage.agreement(&outputs);
             let worst_input = agreement.worst_input.map_or_else(Vec::new, |input| {

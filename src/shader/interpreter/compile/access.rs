@@ -1,9 +1,10 @@
 //! Variables, and the parts of variables and values.
 
+use super::super::Open;
 use super::super::error::Unsupported;
 use super::super::op::{Binary, Op, Register, Unary};
 use super::{Compiler, Operand, Place, Scope, Value};
-use naga::{AddressSpace, Expression, GlobalVariable, Handle};
+use naga::{AddressSpace, Expression, GlobalVariable, Handle, Span};
 
 type Result<T> = core::result::Result<T, Unsupported>;
 
@@ -96,11 +97,16 @@ impl<'a> Compiler<'a> {
         scope: &mut Scope<'a>,
         base: Handle<Expression>,
         index: Handle<Expression>,
+        span: Span,
     ) -> Result<Operand> {
         let ty = self.pointee(scope.ty(self.module, base));
         let (count, size) = self.elements(&ty)?;
         let index = self.scalar(scope, index)?;
         let last = self.word(count - 1)?;
+        if self.known(index).is_none_or(|index| index >= count) {
+            let odd = self.binary(Binary::LessUnsigned, last, index)?;
+            self.count(odd, Open::Index, span)?;
+        }
         let clamped = self.binary(Binary::MinUnsigned, index, last)?;
         let stride = self.word(size as u32)?;
         let offset = self.binary(Binary::MultiplyInteger, clamped, stride)?;

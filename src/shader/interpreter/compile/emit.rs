@@ -1,9 +1,10 @@
 //! Operations, one a function; each gives its result a register of its own.
 
-use super::super::Constant;
+use super::super::{Constant, Open};
 use super::super::error::Unsupported;
 use super::super::op::{Binary, Contracted, Op, Product, Register, Unary};
 use super::{Compiler, MOST_OPERATIONS, MOST_REGISTERS, Value};
+use naga::Span;
 
 type Result<T> = core::result::Result<T, Unsupported>;
 
@@ -59,6 +60,21 @@ impl Compiler<'_> {
         let register = self.register()?;
         self.constants.insert(constant, register);
         Ok(register)
+    }
+
+    /// Counts the lanes in which `odd` is true.
+    pub(super) fn count(&mut self, odd: Register, open: Open, span: Span) -> Result<()> {
+        let known = self.oddities.iter().position(|&known| known == (open, span));
+        let oddity = known.unwrap_or_else(|| {
+            self.oddities.push((open, span));
+            self.oddities.len() - 1
+        });
+        self.push(Op::Count { odd, oddity })
+    }
+
+    /// The word that a register holds in all lanes, where that is known here.
+    pub(super) fn known(&self, register: Register) -> Option<u32> {
+        self.constants.iter().find(|&(_, &constant)| constant == register).map(|(constant, _)| constant.bits)
     }
 
     pub(super) fn unary(&mut self, function: Unary, from: Register) -> Result<Register> {

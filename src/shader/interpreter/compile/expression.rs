@@ -48,7 +48,7 @@ impl<'a> Compiler<'a> {
             Expression::LocalVariable(local) => return Ok(Operand::Pointer(scope.locals[local.index()])),
             Expression::GlobalVariable(global) => return self.global(global).map(Operand::Pointer),
             Expression::AccessIndex { base, index } => return self.access_index(scope, base, index),
-            Expression::Access { base, index } => return self.access(scope, base, index),
+            Expression::Access { base, index } => return self.access(scope, base, index, expressions.get_span(handle)),
             Expression::Load { pointer } => {
                 let size = self.size(&self.pointee(scope.ty(self.module, pointer)))?;
                 let place = self.pointer(scope, pointer)?;
@@ -74,7 +74,9 @@ impl<'a> Compiler<'a> {
                 pattern[..size as usize].iter().map(|&component| vector[component as usize]).collect()
             }
             Expression::Unary { op, expr } => self.unary_operator(scope, op, expr)?,
-            Expression::Binary { op, left, right } => self.binary_operator(scope, op, left, right)?,
+            Expression::Binary { op, left, right } => {
+                self.binary_operator(scope, op, [left, right], expressions.get_span(handle))?
+            }
             Expression::Select { condition, accept, reject } => {
                 let (condition, accept, reject) =
                     (self.value(scope, condition)?, self.value(scope, accept)?, self.value(scope, reject)?);

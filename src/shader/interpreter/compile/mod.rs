@@ -16,9 +16,10 @@ mod types;
 
 use super::error::Unsupported;
 use super::op::{Block, Product, Register};
-use super::{Constant, Kind, Parameter, Program};
+use super::{Constant, Kind, Open, Parameter, Program};
+use core::sync::atomic::AtomicU64;
 use naga::valid::{FunctionInfo, ModuleInfo};
-use naga::{Arena, Expression, Function, GlobalVariable, Handle, Module, Override, TypeInner};
+use naga::{Arena, Expression, Function, GlobalVariable, Handle, Module, Override, Span, TypeInner};
 use std::collections::HashMap;
 
 /// The largest number of registers: 32 MiB a thread.
@@ -86,6 +87,8 @@ struct Compiler<'a> {
     overrides: HashMap<Handle<Override>, Value>,
     /// Registers that hold a product.
     products: HashMap<Register, Product>,
+    /// What can happen, and where; calls of a function count together.
+    oddities: Vec<(Open, Span)>,
 }
 
 /// Compiles a function or an entry point; see [`Program::compile`].
@@ -103,6 +106,7 @@ pub(super) fn compile(module: &Module, info: &ModuleInfo, name: &str) -> Result<
         globals: HashMap::new(),
         overrides: HashMap::new(),
         products: HashMap::new(),
+        oddities: Vec::new(),
     };
     let (mut parameters, mut arguments, mut columns) = (Vec::new(), Vec::new(), Vec::new());
     for argument in &function.arguments {
@@ -133,6 +137,8 @@ pub(super) fn compile(module: &Module, info: &ModuleInfo, name: &str) -> Result<
         constants,
         body,
         registers: compiler.registers as usize,
+        counts: compiler.oddities.iter().map(|_| AtomicU64::new(0)).collect(),
+        oddities: compiler.oddities,
         steps: Program::DEFAULT_STEPS,
     })
 }

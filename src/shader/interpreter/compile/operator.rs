@@ -1,11 +1,12 @@
 //! Unary and binary operators.
 
+use super::super::Open;
 use super::super::error::Unsupported;
 use super::super::op::{Binary, Register, Unary};
 use super::expression::is_matrix;
 use super::types::scalar_kind;
 use super::{Compiler, Scope, Value};
-use naga::{BinaryOperator, Expression, Handle, ScalarKind, UnaryOperator};
+use naga::{BinaryOperator, Expression, Handle, ScalarKind, Span, UnaryOperator};
 
 type Result<T> = core::result::Result<T, Unsupported>;
 
@@ -31,8 +32,8 @@ impl<'a> Compiler<'a> {
         &mut self,
         scope: &mut Scope<'a>,
         op: BinaryOperator,
-        left: Handle<Expression>,
-        right: Handle<Expression>,
+        [left, right]: [Handle<Expression>; 2],
+        span: Span,
     ) -> Result<Value> {
         let left_type = scope.ty(self.module, left).clone();
         let right_type = scope.ty(self.module, right).clone();
@@ -44,6 +45,12 @@ impl<'a> Compiler<'a> {
         self.each_2(&left, &right, |compiler, x, y| match kind {
             ScalarKind::Float => compiler.float_operator(op, x, y),
             _ => {
+                let divides = matches!(op, BinaryOperator::Divide | BinaryOperator::Modulo);
+                if divides && compiler.known(y).is_none_or(|y| y == 0) {
+                    let zero = compiler.word(0)?;
+                    let odd = compiler.binary(Binary::EqualWord, y, zero)?;
+                    compiler.count(odd, Open::Division, span)?;
+                }
                 let (function, swapped) = integer_operator(op, kind == ScalarKind::Sint);
                 let (x, y) = if swapped { (y, x) } else { (x, y) };
                 compiler.binary(function, x, y)

@@ -1,9 +1,10 @@
 //! What the macros of a GLSL text come to, without expanding them: a few lines of `#define` can stand for more text than
 //! a machine can hold.
 
-use super::error::Fault;
-use super::nesting::Nesting;
-use super::scan::Token;
+use super::super::error::Fault;
+use super::super::nesting::Nesting;
+use super::super::scan::Token;
+use super::directives::Directive;
 use std::collections::HashMap;
 
 /// The most words and signs that all macros of a text may come to.
@@ -59,8 +60,8 @@ impl Within<'_, '_> {
 /// # Errors
 ///
 /// Macros that come to more than is read, or that nest too deeply.
-pub(super) fn measure(text: &str, tokens: &[Token]) -> Result<(), Fault> {
-    let (macros, words) = definitions(text, tokens);
+pub(super) fn measure(text: &str, tokens: &[Token], directives: &[Directive<'_>]) -> Result<(), Fault> {
+    let (macros, words) = definitions(text, tokens, directives);
     let mut reader =
         Reader { macros: &macros, nesting: Nesting::default(), words_left: MOST_WORDS, start: 0 };
     reader
@@ -69,21 +70,19 @@ pub(super) fn measure(text: &str, tokens: &[Token]) -> Result<(), Fault> {
 }
 
 /// Takes the lines of directives out of a text; returns the macros that they define, and what is left.
-fn definitions<'t>(text: &'t str, tokens: &[Token]) -> (HashMap<&'t str, Macro<'t>>, Vec<Word<'t>>) {
+fn definitions<'t>(
+    text: &'t str,
+    tokens: &[Token],
+    directives: &[Directive<'_>],
+) -> (HashMap<&'t str, Macro<'t>>, Vec<Word<'t>>) {
     let word = |token: &Token| Word { text: &text[token.at.clone()], start: token.at.start };
     let (mut macros, mut left) = (HashMap::new(), Vec::new());
-    let mut rest = tokens;
-    while let Some((first, others)) = rest.split_first() {
-        if word(first).text != "#" {
-            left.push(word(first));
-            rest = others;
-            continue;
-        }
-        let end = end_of_line(text, first.at.start);
-        let count = rest.iter().take_while(|token| token.at.start < end).count();
-        let (line, behind) = rest.split_at(count);
-        rest = behind;
-        let words: Vec<_> = line.iter().map(word).filter(|word| word.text != "\\").collect();
+    let mut start = 0;
+    for directive in directives {
+        left.extend(tokens[start..directive.tokens.start].iter().map(word));
+        start = directive.tokens.end;
+        let line = tokens[directive.tokens.clone()].iter().map(word);
+        let words: Vec<_> = line.filter(|word| word.text != "\\").collect();
         if let [_, Word { text: "define", .. }, name, body @ ..] = &words[..] {
             let is_called =
                 body.first().is_some_and(|w| w.text == "(" && w.start == name.start + name.text.len());
@@ -98,20 +97,8 @@ fn definitions<'t>(text: &'t str, tokens: &[Token]) -> (HashMap<&'t str, Macro<'
             }
         }
     }
+    left.extend(tokens[start..].iter().map(word));
     (macros, left)
-}
-
-/// The end of a line that goes on behind a backslash.
-fn end_of_line(text: &str, start: usize) -> usize {
-    let mut end = start;
-    loop {
-        end = text[end..].find('\n').map_or(text.len(), |newline| end + newline);
-        let goes_on = text[start..end].trim_end_matches('\r').ends_with('\\') && end < text.len();
-        if !goes_on {
-            return end;
-        }
-        end += 1;
-    }
 }
 
 struct Reader<'m, 't> {
@@ -194,11 +181,14 @@ fn arguments<'s, 't>(words: &'s [Word<'t>]) -> (Vec<&'s [Word<'t>]>, usize) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::scan::tokens;
+    use super::super::super::scan::tokens;
+    use super::super::directives::directives;
     use super::*;
 
     fn measured(text: &str) -> Result<(), String> {
-        measure(text, &tokens(text).unwrap()).map_err(|fault| format!("{} at {:?}", fault.message, fault.at))
+        let tokens = tokens(text).unwrap();
+        measure(text, &tokens, &directives(text, &tokens))
+            .map_err(|fault| format!("{} at {:?}", fault.message, fault.at))
     }
 
     #[test]

@@ -1,0 +1,131 @@
+//! What a typed shader file means: which function of it, and with which values.
+
+use super::args::ShaderArgs;
+use super::failure::Failure;
+use hashed_alpha::shader::own::{self, Language};
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// A shader file as it was typed: `FILE`, or `FILE#FUNCTION`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ShaderFile<'a> {
+    /// The file.
+    pub path: &'a str,
+    /// Its function, where it is named here.
+    pub function: Option<&'a str>,
+}
+
+impl<'a> ShaderFile<'a> {
+    /// Reads a word; nothing where it does not name a file of a shader.
+    pub fn of(word: &'a str) -> Option<Self> {
+        let is_shader = |path: &str| Language::of(Path::new(path)).is_some();
+        if is_shader(word) {
+            return Some(Self { path: word, function: None });
+        }
+        let (path, function) = word.rsplit_once('#')?;
+        is_shader(path).then_some(Self { path, function: Some(function) })
+    }
+
+    /// Returns the name of the file alone, with that of the function where it was typed.
+    pub fn name(&self) -> String {
+        let path = Path::new(self.path);
+        let file = path.file_name().map_or_else(|| self.path.into(), |name| name.to_string_lossy());
+        self.function.map_or_else(|| file.to_string(), |function| format!("{file}#{function}"))
+    }
+
+    /// Returns what is asked of the file: values that name it go before those that hold for every file.
+    pub fn options(&self, args: &ShaderArgs) -> Result<own::Options, Failure> {
+        let mut settings = BTreeMap::new();
+        let (own, shared): (Vec<_>, Vec<_>) =
+            read_settings(&args.set)?.into_iter().partition(|((file, _), _)| file.is_some());
+        let own = own.into_iter().filter(|((file, _), _)| *file == Some(self.path));
+        for ((_, key), value) in shared.into_iter().chain(own) {
+            settings.insert(key.to_owned(), value.to_owned());
+        }
+        let function = self.function.unwrap_or(&args.function).to_owned();
+        Ok(own::Options { function, settings })
+    }
+}
+
+/// Refuses a value for a file that is not among the subjects `typed`.
+pub fn refuse_strays(typed: &[&str], args: &ShaderArgs) -> Result<(), Failure> {
+    for ((file, key), value) in read_settings(&args.set)? {
+        if let Some(file) = file
+            && !typed.iter().filter_map(|word| ShaderFile::of(word)).any(|typed| typed.path == file)
+        {
+            return Err(Failure::Usage(format!(
+                "--set {file}#{key}={value}: {file} is none of the files of this run"
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// The values of `--set` by file, where one is named, and key.
+fn read_settings(typed: &[String]) -> Result<BTreeMap<(Option<&str>, &str), &str>, Failure> {
+    let mut settings = BTreeMap::new();
+    for setting in typed {
+        let (key, value) = setting
+            .split_once('=')
+            .ok_or_else(|| Failure::Usage(format!("--set {setting}: write KEY=VALUE, as in hash_scale=2")))?;
+        let (file, key) = key.rsplit_once('#').map_or((None, key), |(file, key)| (Some(file), key));
+        if let Some(before) = settings.insert((file, key.trim()), value.trim()) {
+            return Err(Failure::Usage(format!(
+                "--set {setting}: {} has a value already, {before}",
+                key.trim()
+            )));
+        }
+    }
+    Ok(settings)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::Parser;
+
+    #[derive(Parser)]
+    struct Typed {
+        #[command(flatten)]
+        shader: ShaderArgs,
+    }
+
+    fn args(options: &[&str]) -> ShaderArgs {
+        Typed::parse_from(["hashed-alpha"].iter().chain(options)).shader
+    }
+
+    #[test]
+    fn a_file_may_name_its_function() {
+        let file = |path, function| Some(ShaderFile { path, function });
+        assert_eq!(ShaderFile::of("a/b.glsl"), file("a/b.glsl", None));
+        assert_eq!(ShaderFile::of("a/b.glsl#c"), file("a/b.glsl", Some("c")));
+        assert_eq!(ShaderFile::of("a#b.glsl"), file("a#b.glsl", None));
+        assert_eq!(ShaderFile::of("robust"), None);
+        assert_eq!(ShaderFile::of("robust#a"), None);
+        assert_eq!(ShaderFile::of("a/b.glsl#c").unwrap().name(), "b.glsl#c");
+    }
+
+    #[test]
+    fn what_names_a_file_goes_before_what_holds_for_all() {
+        let typed = args(&["--function", "f", "--set", "k=1", "--set", "a.glsl#k=2", "--set", "j = 3"]);
+        let options = |word: &str| ShaderFile::of(word).unwrap().options(&typed).unwrap();
+        let values = |word: &str| options(word).settings.into_values().collect::<Vec<_>>();
+        assert_eq!(values("a.glsl#g"), ["3", "2"]);
+        assert_eq!(values("b.glsl"), ["3", "1"]);
+        assert_eq!(
+            (options("a.glsl#g").function, options("b.glsl").function),
+            ("g".to_owned(), "f".to_owned())
+        );
+        assert!(refuse_strays(&["a.glsl#g"], &typed).is_ok());
+        let error = refuse_strays(&["b.glsl"], &typed).unwrap_err().to_string();
+        assert!(error.ends_with("a.glsl is none of the files of this run"), "{error}");
+    }
+
+    #[test]
+    fn a_setting_has_a_key_and_one_value() {
+        let error = |options: &[&str]| read_settings(&args(options).set).unwrap_err().to_string();
+        assert!(error(&["--set", "hash_scale"]).contains("write KEY=VALUE"));
+        let twice = error(&["--set", "k=1", "--set", "k=2"]);
+        assert_eq!(twice, "--set k=2: k has a value already, 1");
+    }
+}

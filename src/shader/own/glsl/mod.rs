@@ -1,0 +1,61 @@
+//! GLSL of any version: prepared byte for byte, then read as the GLSL 450 that naga knows.
+
+mod directives;
+mod macros;
+mod prepare;
+mod reach;
+mod words;
+
+use super::Options;
+use super::error::Fault;
+use super::front::{Front, filled_by_entry_points};
+use super::invalid::validate;
+use super::isolated::isolated;
+use super::scan::{end_of_file, tokens};
+use naga::front::glsl::Frontend;
+
+/// Reads a text; `prelude` becomes the number of bytes that stand before it in what naga reads.
+///
+/// # Errors
+///
+/// Text that is no GLSL or not valid.
+pub(super) fn read(text: &str, asked: &Options, prelude: &mut usize) -> Result<Front, Fault> {
+    let tokens = tokens(text)?;
+    let directives = directives::directives(text, &tokens);
+    let functions = directives::functions(text, &tokens, &directives)?;
+    let prepared = prepare::prepare(text, &tokens, &directives, &asked.function, &asked.settings)?;
+    *prelude = prepared.prelude;
+    let (before, length) = (prepared.prelude, text.trim_end().len());
+    let read = isolated(move || {
+        let mut options = naga::front::glsl::Options::from(naga::ShaderStage::Fragment);
+        options.defines.extend(prepared.defines.iter().cloned());
+        let parsed = Frontend::default().parse(&options, &prepared.text);
+        let mut module = parsed.map_err(|errors| words::said(&errors, &prepared.text))?;
+        let is_unset = |variable: &naga::GlobalVariable| variable.init.is_none();
+        let computed = module.global_variables.iter().filter(|(_, variable)| is_unset(variable));
+        let mut filled: std::collections::BTreeSet<_> = computed
+            .filter_map(|(_, v)| v.name.clone())
+            .filter(|name| prepared.initialised.contains(name))
+            .collect();
+        filled.extend(filled_by_entry_points(&module));
+        // Nothing draws: what inputs and outputs are bound to does not matter.
+        module.entry_points.clear();
+        validate(&module)?;
+        Ok(Front {
+            module,
+            filled,
+            uniforms: prepared.uniforms,
+            defined: prepared.defined,
+            functions,
+            begins_undefined: true,
+            has_derivatives: prepared.has_derivatives,
+        })
+    });
+    read.map_err(|fault| match &fault.at {
+        Some(at) if at.start >= before + length => {
+            let shifted = |at: core::ops::Range<usize>| at.start + before..at.end + before;
+            end_of_file(text, &tokens).map_or(fault, |open| Fault { at: open.at.map(shifted), ..open })
+        }
+        _ => fault,
+    })
+}

@@ -1,0 +1,176 @@
+//! GLSL as engines write it, made into the GLSL 450 that naga reads.
+//!
+//! Everything is blanked or replaced byte for byte, so that a message about what is left names the user's own line and
+//! column:
+//!
+//! * lines of `#version`, `#extension`, `#pragma`; a version of OpenGL ES defines `GL_ES`;
+//! * functions that the one on trial does not come to, `main` among them;
+//! * precision statements, and `highp`, `mediump`, `lowp` everywhere: all is read as 32 bits;
+//! * `const` in front of a parameter;
+//! * a name `in`, which the paper's own listings use, becomes another one;
+//! * `varying` and `attribute`, older words for `in`;
+//! * declarations of textures;
+//! * `uniform` in front of a plain value, which then waits for one (`--set`);
+//! * `uniform` and `buffer` in front of a block without a binding: a macro that gives it one;
+//! * a setting whose name stands in an `#if` or `#ifdef` is a macro;
+//! * derivatives of the position, see [`derivative`].
+//!
+//! A `main` is appended.
+
+use super::super::derivative;
+use super::super::error::Fault;
+use super::super::scan::Token;
+use super::directives::{Directive, in_directives, is_asked_for};
+use super::{macros, reach};
+use std::collections::BTreeMap;
+
+/// Text that naga reads, and what was taken out of it.
+pub(super) struct Prepared {
+    pub text: String,
+    /// Bytes that stand before the user's first one.
+    pub prelude: usize,
+    /// Names of the uniforms that wait for a value.
+    pub uniforms: Vec<String>,
+    /// Names of globals that have an initial value; naga drops those values that it cannot compute.
+    pub initialised: Vec<String>,
+    pub has_derivatives: bool,
+    /// Macros that are defined before the text.
+    pub defines: Vec<(String, String)>,
+    /// Names of those that are the user's.
+    pub defined: Vec<String>,
+}
+
+/// Prepares a text whose function to be called is `function`.
+///
+/// # Errors
+///
+/// A file that is included, a character that GLSL does not have, and macros that come to too much.
+pub(super) fn prepare(
+    text: &str,
+    tokens: &[Token],
+    directives: &[Directive<'_>],
+    function: &str,
+    settings: &BTreeMap<String, String>,
+) -> Result<Prepared, Fault> {
+    let mut bytes = text.as_bytes().to_vec();
+    let is_es = blank_directives(&mut bytes, directives)?;
+    let mut defines = Vec::new();
+    if is_es {
+        defines.push(("GL_ES".to_owned(), "1".to_owned()));
+    }
+    let settings = settings.iter().filter(|(name, _)| is_asked_for(directives, name));
+    defines.extend(settings.map(|(name, value)| (name.clone(), value.clone())));
+    let defined = defines.iter().map(|(name, _)| name.clone()).collect();
+    refuse_strange_characters(&bytes, tokens)?;
+    macros::measure(text, tokens, directives)?;
+    let mut spare = spare_names(tokens, text);
+    let [block, buffer, parameter] =
+        [spare.next(), spare.next(), spare.next()].map(|name| name.unwrap_or_else(|| "zz".to_owned()));
+    for (name, keyword) in [(&block, "uniform"), (&buffer, "buffer")] {
+        defines.push((name.clone(), format!("layout(binding = 0) {keyword}")));
+    }
+
+    let word = |index: usize| tokens.get(index).map_or("", |token: &Token| &text[token.at.clone()]);
+    let is_name = |index: usize| word(index).starts_with(|c: char| c.is_ascii_alphabetic() || c == '_');
+    let in_directive = in_directives(directives, tokens.len());
+    let (mut uniforms, mut initialised) = (Vec::new(), Vec::new());
+    // Where the declaration begins that a token belongs to, and where that of the last uniform ends.
+    let (mut declaration, mut uniform_end) = (0, 0);
+    for (index, token) in tokens.iter().enumerate() {
+        let is_outside = token.function.is_none() && token.parentheses == 0;
+        let mut blank = |tokens: &[Token]| tokens.iter().for_each(|token| bytes[token.at.clone()].fill(b' '));
+        match word(index) {
+            "precision" if word(index + 3) == ";" => blank(&tokens[index..index + 4]),
+            "highp" | "mediump" | "lowp" => blank(&tokens[index..=index]),
+            "const" if token.parentheses > 0 => blank(&tokens[index..=index]),
+            "in" if !is_name(index + 1) => bytes[token.at.clone()].copy_from_slice(parameter.as_bytes()),
+            "varying" | "attribute" if is_outside => {
+                blank(&tokens[index..=index]);
+                bytes[token.at.start..token.at.start + 2].copy_from_slice(b"in");
+            }
+            keyword @ ("uniform" | "buffer") if is_outside && index >= uniform_end => {
+                let is_precision = matches!(word(index + 1), "highp" | "mediump" | "lowp");
+                let value_type = index + 1 + usize::from(is_precision);
+                if word(value_type + 1) == "{" {
+                    let is_bound = |at: usize| matches!(word(at), "binding" | "push_constant");
+                    if !(declaration..index).any(is_bound) {
+                        blank(&tokens[index..=index]);
+                        let name = if keyword == "uniform" { &block } else { &buffer };
+                        bytes[token.at.start..token.at.start + name.len()].copy_from_slice(name.as_bytes());
+                    }
+                } else if is_name(value_type + 1) {
+                    uniform_end =
+                        (index..tokens.len()).find(|&at| word(at) == ";").unwrap_or(tokens.len() - 1);
+                    let is_texture =
+                        word(value_type).contains("sampler") || word(value_type).contains("image");
+                    // Textures with a sampler in them are not read at all; the function cannot use them anyway.
+                    blank(&tokens[declaration..=if is_texture { uniform_end } else { index }]);
+                    let is_declared = |&at: &usize| {
+                        let comes_first = at == value_type + 1 || word(at - 1) == ",";
+                        comes_first && tokens[at].parentheses == 0 && is_name(at)
+                    };
+                    if !is_texture {
+                        let declared = (value_type + 1..uniform_end).filter(is_declared);
+                        uniforms.extend(declared.map(|at| word(at).to_owned()));
+                    }
+                }
+            }
+            "=" if token.function.is_none() && word(index + 1) != "=" => {
+                // Behind the name may stand the size of an array.
+                let is_size =
+                    |at: usize| matches!(word(at), "[" | "]") || word(at).bytes().all(|b| b.is_ascii_digit());
+                let name = (0..index).rev().find(|&at| !is_size(at)).map(word);
+                initialised.extend(name.map(str::to_owned));
+            }
+            _ => {}
+        }
+        if in_directive[index] || token.function.is_none() && matches!(word(index), ";" | "}") {
+            declaration = index + 1;
+        }
+    }
+    reach::blank_others(&mut bytes, text, tokens, directives, function);
+    let has_derivatives = derivative::replace(&mut bytes, tokens, function);
+    let prelude = if has_derivatives { derivative::GLSL } else { "" };
+    // Nothing but whole characters was replaced, by ASCII.
+    let prepared = format!("{prelude}{}\nvoid main() {{}}\n", String::from_utf8_lossy(&bytes));
+    let prelude = prelude.len();
+    Ok(Prepared { text: prepared, prelude, uniforms, initialised, has_derivatives, defines, defined })
+}
+
+/// Refuses characters that no GLSL has outside of comments and of lines that are not read.
+fn refuse_strange_characters(bytes: &[u8], tokens: &[Token]) -> Result<(), Fault> {
+    for token in tokens {
+        let word = String::from_utf8_lossy(&bytes[token.at.clone()]);
+        if !word.is_ascii() || word.bytes().any(|byte| byte.is_ascii_control() || b"@$`'".contains(&byte)) {
+            return Err(Fault::new(format!("{word:?} is no character of GLSL")).at(Some(token.at.clone())));
+        }
+    }
+    Ok(())
+}
+
+/// Blanks directives that only tell a driver something; returns whether the version is one of OpenGL ES.
+fn blank_directives(bytes: &mut [u8], directives: &[Directive<'_>]) -> Result<bool, Fault> {
+    let mut is_es = false;
+    for directive in directives {
+        match directive.name() {
+            "include" => {
+                let message = "files are not included; paste the text of this one";
+                return Err(Fault::new(message).at(Some(directive.at.clone())));
+            }
+            name @ ("version" | "extension" | "pragma") => {
+                is_es |= name == "version"
+                    && (directive.words[2..].contains(&"es") || directive.words.get(2) == Some(&"100"));
+                let line = &mut bytes[directive.at.clone()];
+                line.iter_mut().filter(|byte| !byte.is_ascii_whitespace()).for_each(|byte| *byte = b' ');
+            }
+            _ => {}
+        }
+    }
+    Ok(is_es)
+}
+
+/// Names of two letters that the text does not use.
+fn spare_names(tokens: &[Token], text: &str) -> impl Iterator<Item = String> {
+    let is_used = move |name: &String| tokens.iter().any(|token| text[token.at.clone()] == **name);
+    (b'a'..=b'z').map(|letter| format!("_{}", char::from(letter))).filter(move |name| !is_used(name))
+}

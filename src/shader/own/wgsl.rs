@@ -1,0 +1,80 @@
+//! WGSL as it is written for an engine or for a browser.
+
+use super::derivative;
+use super::error::{Fault, Place};
+use super::front::Front;
+use super::invalid::{joined, validate};
+use super::isolated::isolated;
+use super::scan::{Token, end_of_file, tokens};
+use naga::front::wgsl::ParseError;
+
+/// Reads and validates a text; the derivatives of the position in the body of `function` become variables.
+///
+/// # Errors
+///
+/// Text that is no WGSL or not valid.
+pub(super) fn read(text: &str, function: &str) -> Result<Front, Fault> {
+    let tokens = tokens(text)?;
+    let mut bytes = text.as_bytes().to_vec();
+    blank_imports(&mut bytes, &tokens)?;
+    let has_derivatives = derivative::replace(&mut bytes, &tokens, function);
+    // Only ASCII was replaced, by ASCII.
+    let mut prepared = String::from_utf8_lossy(&bytes).into_owned();
+    if has_derivatives {
+        prepared.push_str(derivative::WGSL);
+    }
+    let length = text.trim_end().len();
+    let read = isolated(move || {
+        let module = naga::front::wgsl::parse_str(&prepared).map_err(|error| said(&error, &prepared))?;
+        validate(&module)?;
+        Ok(Front::plain(module, has_derivatives))
+    });
+    read.map_err(|fault| match &fault.at {
+        Some(at) if at.start >= length => end_of_file(text, &tokens).unwrap_or(fault),
+        _ => fault,
+    })
+}
+
+/// What naga's parser says. A single label repeats the message in other words, unless it names a type; of several, each
+/// but the first has a place of its own.
+fn said(error: &ParseError, text: &str) -> Fault {
+    let at = error.labels().next().and_then(|(span, _)| span.to_range());
+    let several = error.labels().len() > 1;
+    let labels = error.labels().enumerate().filter(|(_, (_, label))| several || label.contains(" type "));
+    let labels = labels.filter(|(_, (_, label))| !label.is_empty() && *label != "see msg").map(
+        |(index, (span, label))| match span.to_range() {
+            Some(range) if index > 0 => format!("{label} (line {})", Place::of(text, range.start).line),
+            _ => label.to_owned(),
+        },
+    );
+    let notes = error.notes().map(str::to_owned);
+    Fault::new(joined(error.message(), labels.chain(notes))).at(at)
+}
+
+/// Blanks the lines by which an engine puts a WGSL file together, `#import` and `#define_import_path`; what they bring is
+/// not here.
+fn blank_imports(bytes: &mut [u8], tokens: &[Token]) -> Result<(), Fault> {
+    let word =
+        |bytes: &[u8], at: usize| tokens.get(at).map_or(Vec::new(), |token| bytes[token.at.clone()].to_vec());
+    for (index, token) in tokens.iter().enumerate() {
+        if word(bytes, index) != b"#" {
+            continue;
+        }
+        if !matches!(&word(bytes, index + 1)[..], b"import" | b"define_import_path") {
+            let message = "WGSL has no directives; those of an engine are to be carried out before";
+            return Err(Fault::new(message).at(Some(token.at.clone())));
+        }
+        let line = bytes[token.at.start..].iter().position(|&byte| byte == b'\n');
+        let mut end = line.map_or(bytes.len(), |length| token.at.start + length);
+        if bytes[token.at.start..end].contains(&b'{') {
+            // A list may go over several lines.
+            let close = bytes[token.at.start..].iter().position(|&byte| byte == b'}');
+            end = end.max(close.map_or(bytes.len(), |length| token.at.start + length + 1));
+        }
+        bytes[token.at.start..end]
+            .iter_mut()
+            .filter(|byte| !byte.is_ascii_whitespace())
+            .for_each(|byte| *byte = b' ');
+    }
+    Ok(())
+}

@@ -1,0 +1,253 @@
+//! What is taken, and what becomes of it.
+
+use super::*;
+
+#[test]
+fn every_example_is_read_and_can_be_said_in_wgsl() {
+    let examples = examples();
+    assert_eq!(examples.len(), 10);
+    for path in examples {
+        let shader = read(&path, &options_of(&path)).unwrap_or_else(|error| panic!("{error}"));
+        let text = shader.wgsl().unwrap();
+        assert!(shader.call().starts_with("own_threshold("), "{}", shader.call());
+        let caller = format!(
+            "{text}\nfn word(k: u32) -> u32 {{ return k; }}\nfn number(k: u32) -> f32 {{ return f32(k); }}\n\
+             fn caller() -> f32 {{ return {}; }}",
+            shader.call()
+        );
+        let module = naga::front::wgsl::parse_str(&caller)
+            .unwrap_or_else(|error| panic!("{}: {}", path.display(), error.emit_to_string(&caller)));
+        assert!(module.entry_points.is_empty());
+        assert!(shader.module.entry_points.is_empty());
+    }
+}
+
+#[test]
+fn parameters_are_found_by_name_in_any_order() {
+    let text =
+        "fn threshold(layer: u32, strength: i32, lod: f32, wide: bool, texcoord: vec2<f32>, hash_scale: f32,
+                dpdy: vec3<f32>) -> f32 { return dpdy.x + lod * texcoord.x + f32(layer) + hash_scale; }";
+    let shader = wgsl(text, &options(&[("strength", "-3"), ("wide", "true")])).unwrap();
+    let inputs: Vec<_> = shader.bindings.iter().map(|binding| binding.input).collect();
+    let constants =
+        [Value::I32(-3), Value::Bool(true), Value::F32(1.0)].map(|value| Input::Constant(value.into()));
+    assert_eq!(
+        inputs,
+        [Input::Layer, constants[0], Input::Lod, constants[1], Input::Texcoord, constants[2], Input::Dpdy]
+    );
+    let footprint =
+        Footprint { position: glam::DVec3::ZERO, dpdx: glam::DVec3::ZERO, dpdy: glam::dvec3(1.0, 2.0, 3.0) };
+    let fragment = Fragment { layer: 7, lod: 0.5, texcoord: glam::dvec2(8.0, 9.0), ..footprint.into() };
+    let words = [7, 0.5_f32.to_bits(), 8.0_f32.to_bits(), 9.0_f32.to_bits(), 1.0_f32.to_bits()];
+    assert_eq!(shader.words(&[fragment, fragment])[..5], words);
+    assert_eq!(shader.words(&[fragment, fragment]).len(), 2 * shader.words_per_fragment());
+    assert_eq!(
+        shader.call(),
+        "own_threshold(word(0u), i32(-3), number(1u), true, vec2<f32>(number(2u), number(3u)), 1.0f, \
+         vec3<f32>(number(4u), number(5u), number(6u)), )"
+    );
+}
+
+#[test]
+fn settings_reach_uniforms_overrides_and_parameters_and_nothing_else() {
+    let uniform = "@group(0) @binding(0) var<uniform> foo: f32;\nfn threshold() -> f32 { return foo; }";
+    assert!(wgsl(uniform, &options(&[("foo", "0.25")])).unwrap().wgsl().unwrap().contains("0.25"));
+    let constant = "override foo: u32 = 3;\n@id(7) override bar = foo * 2u;
+                    fn threshold() -> f32 { return f32(foo + bar); }";
+    assert!(wgsl(constant, &options(&[])).unwrap().wgsl().unwrap().contains("6u"));
+    assert!(wgsl(constant, &options(&[("foo", "5")])).unwrap().wgsl().unwrap().contains("10u"));
+    assert!(wgsl(constant, &options(&[("bar", "9")])).unwrap().wgsl().unwrap().contains("9u"));
+    for (settings, wanted) in [
+        (("foo", "-1"), "`foo`: `-1` is no u32"),
+        (("foo", "1.5"), "`foo`: `1.5` is no u32"),
+        (("fop", "1"), "nothing that `fop` could set"),
+    ] {
+        let error = wgsl(constant, &options(&[settings])).unwrap_err();
+        assert!(error.contains(wanted), "{error}");
+    }
+    let error = wgsl(uniform, &options(&[("foo", "inf")])).unwrap_err();
+    assert!(error.contains("`inf` is no f32"), "{error}");
+    let other = Options { function: "mine".to_owned(), ..options(&[]) };
+    assert!(wgsl("fn mine(position: vec3<f32>) -> f32 { return position.x; }", &other).is_ok());
+}
+
+#[test]
+fn derivatives_of_the_position_come_with_the_fragment() {
+    let text = "float threshold(vec3 position) { return length(dFdx(position)) + dFdy(position.xy).y + fwidth(position).z; }";
+    let shader = glsl(text, &options(&[])).unwrap();
+    let inputs: Vec<_> = shader.bindings.iter().map(|binding| binding.input).collect();
+    assert_eq!(inputs, [Input::Position, Input::Dpdx, Input::Dpdy]);
+    let own =
+        "fn threshold(dpdy: vec3<f32>, position: vec3<f32>) -> f32 { return dpdxFine(position).x + dpdy.x; }";
+    let shader = wgsl(own, &options(&[])).unwrap();
+    let inputs: Vec<_> = shader.bindings.iter().map(|binding| binding.input).collect();
+    assert_eq!(inputs, [Input::Dpdy, Input::Position, Input::Dpdx]);
+}
+
+#[test]
+fn names_of_a_file_do_not_meet_those_around_it() {
+    for name in
+        ["word", "number", "element", "given_words", "made_words", "every_element", "own_threshold", "its_x"]
+    {
+        let text = format!(
+            "struct S_{name} {{ {name}: f32 }}
+             var<private> v_{name}: u32 = 3u;
+             const c_{name} = vec2<f32>(1.0, 2.0);
+             fn {name}(k: u32) -> f32 {{ return f32(k) * c_{name}.y; }}
+             fn threshold(position: vec3<f32>) -> f32 {{
+                 var s: S_{name};
+                 s.{name} = {name}(v_{name});
+                 return s.{name} + position.x;
+             }}"
+        );
+        for text in [
+            text.clone(),
+            text.replace("v_", "")
+                .replace(&format!("fn {name}("), "fn other(")
+                .replace(&format!("{name}({name})"), &format!("other({name})")),
+        ] {
+            let shader = wgsl(&text, &options(&[])).unwrap_or_else(|error| panic!("{error}: {text}"));
+            let written = shader.wgsl().unwrap();
+            let declared = |keyword: &str| {
+                let behind: Vec<_> = written.split(keyword).skip(1).collect();
+                behind.into_iter().all(|rest| rest.starts_with("its_") || rest.starts_with("own_threshold("))
+            };
+            assert!(declared("fn ") && declared("struct ") && declared("var<private> "), "{written}");
+            let fragment = Fragment::from(Footprint::<f64> {
+                position: glam::dvec3(0.5, 0.0, 0.0),
+                dpdx: glam::DVec3::ZERO,
+                dpdy: glam::DVec3::ZERO,
+            });
+            let found = shader.thresholds(&shader.program().unwrap(), &[fragment], &DeviceModel::ACCURATE);
+            assert_eq!(found.unwrap(), [6.5], "{text}");
+        }
+    }
+}
+
+#[test]
+fn settings_are_macros_where_conditions_ask_for_them() {
+    let text = "#ifdef USE_HASH\nfloat threshold(vec3 position) { return STRENGTH * position.x; }\n#endif
+#if !defined(STRENGTH)\n#define STRENGTH 0.5\n#endif";
+    assert!(glsl(text, &options(&[])).unwrap_err().contains("it stands behind `#ifdef USE_HASH`"));
+    let shader = glsl(
+        &text.replace("#ifdef", "#if STRENGTH > 1\n#endif\n#ifdef"),
+        &options(&[("USE_HASH", ""), ("STRENGTH", "2")]),
+    );
+    assert!(shader.unwrap().wgsl().unwrap().contains("2"));
+}
+
+#[test]
+fn imports_of_an_engine_are_set_aside() {
+    let text = "#define_import_path my::hash\n#import a::{\n  b,\n  c,\n}\n#import d\n
+fn threshold(position: vec3<f32>) -> f32 { return fract(position.x); }";
+    assert!(wgsl(text, &options(&[])).is_ok());
+    let missing = text.replace("fract", "b");
+    assert!(wgsl(&missing, &options(&[])).unwrap_err().starts_with("own.wgsl:8:51: "));
+    let conditional = format!("#ifdef X\n{text}");
+    assert!(
+        wgsl(&conditional, &options(&[])).unwrap_err().starts_with("own.wgsl:1:1: WGSL has no directives")
+    );
+}
+
+#[test]
+fn a_main_may_do_what_only_older_versions_can() {
+    let text = "#version 100
+        varying vec3 v_position;
+        uniform sampler2D u_map;
+        float threshold(vec3 position) { return fract(position.x); }
+        void main() {
+            if (texture2D(u_map, v_position.xy).a < threshold(v_position)) { discard; }
+            gl_FragColor = vec4(1.0);
+        }";
+    let shader = glsl(text, &options(&[])).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(shader.bindings.len(), 1);
+}
+
+#[test]
+fn inputs_outputs_and_blocks_need_no_numbers() {
+    let text = "#version 330
+layout(location = 3) uniform vec4 u_tint;
+in vec3 vPos;
+flat in vec2 vUv;
+varying vec3 vNormal;
+out vec4 first;
+out vec4 second;
+uniform Camera { mat4 view; vec3 eye; };
+layout(std140) uniform Light { vec3 direction; } light;
+layout(std140, binding = 2) uniform Fog { vec3 colour; } fog;
+layout(std430) readonly buffer Table { float entries[]; } table;
+layout(binding = 1) uniform sampler2D u_maps[4];
+float threshold(vec3 position) { return fract(position.x); }
+void main() { first = vec4(vPos, threshold(vPos)); second = texture(u_maps[0], vUv); }";
+    let shader = glsl(text, &options(&[])).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(threshold(&shader, [1.25, 0.0, 0.0]), 0.25);
+    let reads_block = text.replace("fract(position.x)", "fract(\n  eye.x)");
+    let error = glsl(&reads_block, &options(&[])).unwrap_err();
+    assert!(error.starts_with("own.glsl:8:9: uniform block `Camera`"), "{error}");
+    let wrong = text.replace("fract(position.x)", "fract(positon.x)");
+    assert!(glsl(&wrong, &options(&[])).unwrap_err().starts_with("own.glsl:13:47: `positon`"));
+}
+
+#[test]
+fn only_what_the_threshold_comes_to_counts() {
+    let text = "#version 100
+varying vec3 v_position;
+uniform sampler2D u_map;
+float screen(vec3 p) { return length(dFdx(p * 2.0)); }
+float masked(vec2 uv) { return texture2D(u_map, uv).a * screen(vec3(uv, 1.0)); }
+float threshold(vec3 position) { return fract(position.x); }
+void main() {
+    if (masked(v_position.xy) < threshold(v_position)) { discard; }
+}";
+    let shader = glsl(text, &options(&[])).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(threshold(&shader, [1.25, 0.0, 0.0]), 0.25);
+    let comes_to = text.replace("fract(position.x)", "screen(position)");
+    let error = glsl(&comes_to, &options(&[])).unwrap_err();
+    assert!(error.starts_with("own.glsl:4:") && error.contains("in the body of `threshold` only"), "{error}");
+
+    let text = "fn screen(p: vec3<f32>) -> f32 { return length(dpdx(p * 2.0)); }
+fn threshold(position: vec3<f32>) -> f32 { return fract(position.x); }
+@fragment fn main(@location(0) p: vec3<f32>) -> @location(0) vec4<f32> {
+    return vec4(screen(p), threshold(p), fwidth(p.xy));
+}";
+    let shader = wgsl(text, &options(&[])).unwrap();
+    assert_eq!(threshold(&shader, [1.25, 0.0, 0.0]), 0.25);
+    let comes_to = text.replace("fract(position.x)", "screen(position)");
+    let error = wgsl(&comes_to, &options(&[])).unwrap_err();
+    assert!(
+        error.starts_with("own.wgsl:1:48: a derivative is known in the body of `threshold` only"),
+        "{error}"
+    );
+}
+
+#[test]
+fn vectors_are_set_by_their_components() {
+    let uniform = "uniform vec3 k, j;\nfloat threshold(vec3 position) { return dot(position, k) + j.y; }";
+    let set = [("k", "0.5, 0.25,2"), ("j", "0,8,0")];
+    let shader = glsl(uniform, &options(&set)).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(threshold(&shader, [1.0, 2.0, 4.0]), 17.0);
+    let own = "@group(0) @binding(0) var<uniform> k: vec2<i32>;
+fn threshold(position: vec3<f32>, j: vec4<u32>, wide: vec2<bool>) -> f32 {
+    return select(0.0, f32(k.y), wide.y) + f32(j.w);
+}";
+    let set = [("k", "1,-2"), ("j", "1,2,3,4"), ("wide", "false,true")];
+    let shader = wgsl(own, &options(&set)).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(threshold(&shader, [0.0; 3]), 2.0);
+    assert!(
+        shader.call().contains("vec4<u32>(1u, 2u, 3u, 4u), vec2<bool>(false, true)"),
+        "{}",
+        shader.call()
+    );
+    for (value, wanted) in [
+        ("1,2", "own.glsl:1:14: `k` is vec3<f32> and takes 3 values, --set k=X,Y,Z, not 2"),
+        ("1", "takes 3 values, --set k=X,Y,Z, not 1"),
+        ("1,2,3,4", "not 4"),
+        ("1,,3", "own.glsl:1:14: `k`: `` is no f32"),
+        ("1,2,abc", "`k`: `abc` is no f32"),
+    ] {
+        let error = glsl(uniform, &options(&[("k", value), ("j", "0,0,0")])).unwrap_err();
+        assert!(error.contains(wanted), "{error}, not {wanted}");
+    }
+    let scalar = "uniform float k;\nfloat threshold() { return k; }";
+    assert!(glsl(scalar, &options(&[("k", "1,2")])).unwrap_err().contains("`k`: `1,2` is no f32"));
+}
