@@ -1,5 +1,6 @@
 //! The binary as a user meets it: streams, exit codes, messages, and the numbers of `eval`.
 
+use hashed_alpha::shader::own;
 use std::fs::File;
 use std::io::{BufRead, BufReader, Seek, Write};
 use std::process::{Command, Output, Stdio};
@@ -538,6 +539,85 @@ fn each_file_has_its_function_and_its_values() {
         negative.contains("'-1' for '--seed <N>': a seed is a whole number from 0 to 18446744073709551615"),
         "{negative}"
     );
+}
+
+#[test]
+fn a_panic_of_the_reader_is_one_message() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("damaged.spv");
+    let file = file.to_str().unwrap();
+    succeed(&["shader", "--lang", "spirv", "--out", file], "");
+    let whole = std::fs::read(file).unwrap();
+    let damaged = |word: usize| {
+        let mut bytes = whole.clone();
+        bytes[4 * word..][..4].copy_from_slice(&1_u32.to_le_bytes());
+        bytes
+    };
+    let panics = |bytes: &Vec<u8>| {
+        let read = own::parse("damaged.spv", own::Language::SpirV, bytes, &own::Options::default());
+        read.is_err_and(|error| error.message.contains("gave up"))
+    };
+    let bytes = (5..whole.len() / 4).map(damaged).find(panics).expect("a word that naga panics on");
+    std::fs::write(file, bytes).unwrap();
+    let message = String::from_utf8(run(&["check", file, "--on", "cpu", "--no-report"], "").stderr).unwrap();
+    assert!(message.starts_with("error: ") && message.lines().count() == 1, "{message}");
+}
+
+#[test]
+fn what_a_language_leaves_open_is_noted() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("mine.wgsl");
+    let text = "fn threshold(position: vec3<f32>, frame: u32) -> f32 {
+  var table = array<f32, 2>(0.5, 0.25);
+  let quotient = 3u / frame;
+  return table[2u + quotient];
+}";
+    std::fs::write(&file, text).unwrap();
+    let options = ["--on", "cpu", "--only", "range.far_from_origin", "--budget", "quick", "--no-report"];
+    let output = run(&[&["check", file.to_str().unwrap()][..], &options].concat(), "");
+    let remarks = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(0), "{remarks}");
+    for remark in [
+        "mine.wgsl:3:18: an integer is divided by zero; x / 0 was x, x % 0 was 0 (",
+        "mine.wgsl:4:10: an index is out of range; the last element was taken (",
+    ] {
+        let line = remarks.lines().find(|line| line.contains(remark)).unwrap_or_else(|| panic!("{remarks}"));
+        assert!(line.starts_with("note: mine.wgsl: ") && line.ends_with(" times)"), "{line}");
+    }
+}
+
+/// Claims about frames hold for a shader that takes all strata in turn, and for no other.
+#[test]
+fn a_shader_is_held_to_its_frames() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("frames.wgsl");
+    let spread = "
+fn spread(position: vec3<f32>, dpdx: vec3<f32>, dpdy: vec3<f32>, frame: u32) -> f32 {
+    let x = threshold(position, dpdx, dpdy) + f32(STRATUM) / 8.0;
+    return select(x, x - 1.0, x > 1.0);
+}";
+    let library = succeed(&["shader"], "");
+    let check = |stratum: &str, frames: &str| {
+        std::fs::write(&file, library.clone() + &spread.replace("STRATUM", stratum)).unwrap();
+        let typed = format!("{}#spread", file.display());
+        let options =
+            ["--on", "cpu", "--nested-phase", "--only", "frames", "--budget", "quick", "--no-report"];
+        let output = run(&[&["check", &typed, "--frames", frames][..], &options].concat(), "");
+        let results = String::from_utf8(output.stdout).unwrap();
+        let rejected: Vec<_> = results
+            .lines()
+            .filter_map(|line| line.strip_prefix("rejected"))
+            .filter_map(|line| line.split_whitespace().next().map(str::to_owned))
+            .collect();
+        (output.status.code(), rejected)
+    };
+    let alternating = "((frame % 8u) / 2u + (frame % 2u) * 4u)";
+    assert_eq!(check(alternating, "8"), (Some(0), vec![]));
+    assert_eq!(check("0u", "1"), (Some(0), vec![]));
+    let (code, rejected) = check("0u * frame", "8");
+    assert_eq!((code, rejected.contains(&"frames.stratified".to_owned())), (Some(1), true), "{rejected:?}");
+    let (code, rejected) = check(alternating, "1");
+    assert_eq!((code, rejected.contains(&"frames.static".to_owned())), (Some(1), true), "{rejected:?}");
 }
 
 /// No driver is found where these point.

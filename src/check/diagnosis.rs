@@ -53,9 +53,7 @@ pub fn guesses(outcomes: &[Outcome]) -> Vec<Guess> {
     };
     let mut guesses: Vec<Guess> = specimen::ALL.iter().filter_map(likeness).collect();
     let rejections = |guess: &Guess| matrix.row(guess.specimen.name).map_or(0, |row| row.claims.len());
-    guesses.sort_by(|a, b| {
-        b.likeness.total_cmp(&a.likeness).then_with(|| rejections(a).cmp(&rejections(b)))
-    });
+    guesses.sort_by(|a, b| b.likeness.total_cmp(&a.likeness).then_with(|| rejections(a).cmp(&rejections(b))));
     guesses
 }
 

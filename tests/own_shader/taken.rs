@@ -6,7 +6,10 @@ use super::*;
 fn every_example_is_read_and_can_be_said_in_wgsl() {
     let examples = examples();
     assert_eq!(examples.len(), 10);
+    let page = include_str!("../../docs/your_shader.md");
     for path in examples {
+        let name = path.file_name().unwrap().to_str().unwrap();
+        assert!(page.contains(&format!("`{name}`")), "{name} is not in the documentation");
         let shader = read(&path, &options_of(&path)).unwrap_or_else(|error| panic!("{error}"));
         let text = shader.wgsl().unwrap();
         assert!(shader.call().starts_with("own_threshold("), "{}", shader.call());
