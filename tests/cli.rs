@@ -799,6 +799,7 @@ fn cost_lists_effects_and_sizes() {
     let out = folder.path().to_str().unwrap();
     let effects = succeed(&["cost", "--effects", "--quick", "--out", out], "");
     assert!(effects.contains("hashed, fade-in") && effects.contains("1.41 to 4.53"), "{effects}");
+    assert!(effects.contains("hashed-occlusion") && effects.contains("whole frames"), "{effects}");
     let sizes = succeed(&["cost", "--sizes", "--samples", "20000", "--quick", "--out", out], "");
     assert_eq!(sizes.lines().count(), 3, "{sizes}");
     assert!(folder.path().join("cost-sizes.svg").exists() && folder.path().join("cost-effects.csv").exists());

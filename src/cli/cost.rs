@@ -3,7 +3,7 @@
 use super::args::CostArgs;
 use super::failure::Failure;
 use super::{Ending, output};
-use hashed_alpha::cost::{Effort, effects, ladder, sizes};
+use hashed_alpha::cost::{Effort, effects, ladder, sizes, techniques};
 use hashed_alpha::report::cost::{json, pictures, table};
 use hashed_alpha::report::directory::write_atomically;
 use indicatif::ProgressBar;
@@ -51,10 +51,20 @@ fn of_accuracy(args: &CostArgs, effort: Effort) -> Result<Ending, Failure> {
 
 fn of_effects(args: &CostArgs, effort: Effort) -> Result<Ending, Failure> {
     let prices = measured(effects::steps(effort), |done| effects::prices(effort, done));
-    let table = table::prices(&prices);
-    written(&args.out, "cost-effects.csv", &table.csv())?;
-    let text = format!("{}\n{}", table.aligned(), table::table_1().aligned());
-    print(args, &text, |out| json::write_prices(&prices, out))
+    let (techniques, frames) = measured(techniques::steps(), |done| {
+        (techniques::techniques(effort, done), techniques::frames(effort, done))
+    });
+    let kernels = table::prices(&prices);
+    let [of_techniques, of_frames] = [table::techniques(&techniques), table::frames(&frames)];
+    written(&args.out, "cost-effects.csv", &kernels.csv())?;
+    written(&args.out, "cost-techniques.csv", &of_techniques.csv())?;
+    written(&args.out, "cost-frames.csv", &of_frames.csv())?;
+    let tables = [kernels, of_techniques, of_frames, table::table_1()];
+    let text = tables.map(|table| table.aligned()).join("\n");
+    print(args, &text, |out| {
+        json::write_prices(&prices, out)?;
+        json::write_techniques(&techniques, out)
+    })
 }
 
 fn of_sizes(args: &CostArgs, effort: Effort) -> Result<Ending, Failure> {

@@ -5,6 +5,7 @@
 //! | [`ladder`](mod@ladder) | what does each digit of a sine, a hash, a threshold cost? |
 //! | [`law`] | how uniform is a threshold, and how often does it change what is seen? |
 //! | [`effects`] | what does each effect of the paper add? |
+//! | `techniques` (feature `render`) | what does each technique add to a whole frame of the scene that shows it? |
 //! | [`sizes`] | do time and memory grow with the number of samples? |
 //! | [`clock`] | how things are timed so that the ratios mean something |
 //! | [`pool`] | the footprints that are evaluated |
@@ -22,6 +23,8 @@ pub mod law;
 pub mod pool;
 pub mod sizes;
 mod stages;
+#[cfg(feature = "render")]
+pub mod techniques;
 
 pub use ladder::{Row, ladder};
 

@@ -7,7 +7,7 @@ use super::view::Cause;
 use crate::technique::foveated::Gaze;
 use image::GrayImage;
 use image_compare::Algorithm;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, VecDeque};
 
 /// Measured numbers by name.
 ///
@@ -24,6 +24,7 @@ use std::collections::BTreeMap;
 /// | `layer_correlation` | correlation of the visibilities of the first two layers, where both are partly transparent |
 /// | `coverage_ratio.gaze`, `.periphery` | the coverage ratio within the circle around the gaze, and outside |
 /// | `ghosting` | share of the coverage that is shown where no surface is in that frame; of takes that mix frames |
+/// | `swing` | difference between the highest and the lowest coverage of a pixel in the last eight frames, mean over touched pixels; of the same takes |
 /// | `open` | share of the rays that are open, over all frames |
 /// | `open_flips` | change of that share a frame, per pixel with a ray in both |
 /// | `open_run_ratio` | `run_ratio` of open and occluded pixels |
@@ -64,6 +65,9 @@ struct Sums {
     changed: [f64; 2],
     /// Coverage where no surface is, and all.
     ghosts: Option<[f64; 2]>,
+    /// Coverage of the latest frames.
+    latest: VecDeque<Vec<f32>>,
+    touched: Vec<bool>,
     open: Option<OpenSums>,
     /// Neighbours along each axis that differ, and all.
     runs: [[f64; 2]; 2],
@@ -132,6 +136,11 @@ impl Measured {
                 *ghosts += if touched { 0.0 } else { f64::from(share) };
                 *all += f64::from(share);
             }
+            if sums.latest.len() == CYCLE {
+                sums.latest.pop_front();
+            }
+            sums.latest.push_back(picture.coverage.clone());
+            sums.touched.clone_from(&frame.touched);
         }
         if asked.layers {
             let layers = sums.layers.get_or_insert_default();
@@ -196,6 +205,7 @@ impl Measured {
         put("run_ratio", run_y / run_x.max(f64::MIN_POSITIVE));
         if let Some([ghosts, all]) = sums.ghosts {
             put("ghosting", ghosts / all.max(f64::MIN_POSITIVE));
+            put("swing", swing(&sums.latest, &sums.touched));
         }
         if let Some(open) = &sums.open {
             put("open", open.rays[1] as f64 / open.rays[0].max(1) as f64);
@@ -258,6 +268,19 @@ fn similarity(a: &Picture, b: &Picture) -> f64 {
     image_compare::gray_similarity_structure(&Algorithm::MSSIMSimple, &grey(a), &grey(b))
         // Pictures of one scene have one size.
         .map_or(f64::NAN, |similarity| similarity.score)
+}
+
+/// Frames over which a swing is measured: as many as temporal antialiasing commonly has.
+const CYCLE: usize = 8;
+
+fn swing(latest: &VecDeque<Vec<f32>>, touched: &[bool]) -> f64 {
+    let pixels: Vec<usize> = (0..touched.len()).filter(|&at| touched[at]).collect();
+    let of = |&at: &usize| {
+        let shares = latest.iter().map(|frame| frame[at]);
+        let (least, most) = shares.fold((f32::INFINITY, f32::NEG_INFINITY), |(a, b), s| (a.min(s), b.max(s)));
+        f64::from(most - least)
+    };
+    pixels.iter().map(of).sum::<f64>() / pixels.len().max(1) as f64
 }
 
 impl OpenSums {
@@ -324,6 +347,22 @@ mod tests {
             assert_eq!(metrics["coverage_ratio"], 1.0);
         }
         assert!(!metrics.contains_key("flips") && !metrics.contains_key("layer_correlation"));
+    }
+
+    #[test]
+    fn ghosts_and_swings_are_measured_of_takes_that_mix_frames() {
+        let (mut measured, mut metrics) = (Measured::default(), Metrics::default());
+        let asked = Asked { ghosts: true, ..Asked::default() };
+        measured.begin();
+        for share in [0.9, 0.2, 0.3, 0.2, 0.3, 0.2, 0.3, 0.2, 0.3] {
+            let mut half = frame(vec![share; 256]);
+            half.touched[..64].fill(false);
+            measured.add(&half, None, asked);
+        }
+        measured.end(&SHOT, &mut metrics);
+        assert!((metrics["ghosting"] - 0.25).abs() < 1e-6);
+        // The first of nine frames counts no more.
+        assert!((metrics["swing"] - 0.1).abs() < 1e-6);
     }
 
     #[test]

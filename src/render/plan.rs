@@ -295,6 +295,12 @@ impl Plan {
             .reduce(|| (0, 0), |a, b| (a.0 + b.0, a.1 + b.1))
     }
 
+    /// Returns whether frames are mixed with those before.
+    #[must_use]
+    pub fn mixes(&self) -> bool {
+        self.stages.iter().any(|stage| matches!(stage, Stage::History(_) | Stage::Average(_)))
+    }
+
     /// Returns how far the image is moved in a frame, in pixels of the places.
     #[must_use]
     pub fn offset(&self, frame: u32) -> DVec2 {

@@ -69,10 +69,11 @@ pub struct Take {
     pub metrics: Metrics,
     /// The mean of the first shot's frames.
     pub mean: Picture,
-    /// The first frame of every shot with all motion: the scene as it is, and from each other distance.
-    pub first: Vec<Picture>,
-    /// The frame after the first, where there is one.
-    pub second: Option<Picture>,
+    /// The shown frame of every shot with all motion: the scene as it is, and from each other distance. It is the first, or
+    /// the last where some take mixes frames.
+    pub shown: Vec<Picture>,
+    /// The frame beside the shown one, where there is one.
+    pub beside: Option<Picture>,
     /// The first shot, frame by frame.
     pub sequence: Vec<RgbImage>,
     /// Time that its frames took, in seconds.
@@ -84,7 +85,7 @@ pub struct Take {
 pub struct Study {
     /// Its takes, in the order of the file.
     pub takes: Vec<Take>,
-    /// The first frame of every shot as it should be, if the scene asks for that.
+    /// The shown frame of every shot as it should be, if the scene asks for that.
     pub truth: Option<Vec<Picture>>,
     /// What the truth cost.
     pub truth_cost: Cost,
@@ -124,6 +125,8 @@ pub fn study(scene: &Scene, progress: &mut dyn FnMut(u64, u64)) -> Study {
     };
     let shots = shots(scene);
     let frames = scene.file.frames.get();
+    // What a mixture shows in its first frame is no mixture.
+    let shown = if plans.iter().any(Plan::mixes) { frames - 1 } else { 0 };
     let per_frame = plans.len() as u64 + u64::from(scene.file.truth.is_some());
     let total = shots.len() as u64 * u64::from(frames) * per_frame;
     let mut done = 0;
@@ -143,11 +146,21 @@ pub fn study(scene: &Scene, progress: &mut dyn FnMut(u64, u64)) -> Study {
                 picture
             });
             for ((take, measured), history) in takes.iter_mut().zip(&mut histories) {
-                take.draw(scene, find(take.plan.textures), shot, index, history, measured, truth.as_ref());
+                let place = if index == shown {
+                    Place::Shown
+                } else if index.abs_diff(shown) == 1 {
+                    Place::Beside
+                } else {
+                    Place::Other
+                };
+                let at = (index, place);
+                take.draw(scene, find(take.plan.textures), shot, at, history, measured, truth.as_ref());
                 done += 1;
                 progress(done, total);
             }
-            if let (Some(truths), Some(truth), 0, Cause::All) = (&mut truths, truth, index, shot.cause) {
+            if let (Some(truths), Some(truth), Cause::All) = (&mut truths, truth, shot.cause)
+                && index == shown
+            {
                 truths.push(truth);
             }
         }
@@ -161,15 +174,15 @@ pub fn study(scene: &Scene, progress: &mut dyn FnMut(u64, u64)) -> Study {
 }
 
 impl Study {
-    /// Returns the picture of the scene: the first frames of the takes side by side with the truth last, a row for each shot
-    /// that differs in distance; enlarged insets; and the differences of the first two frames, inverted.
+    /// Returns the picture of the scene: the shown frames of the takes side by side with the truth last, a row for each shot
+    /// that differs in distance; enlarged insets; and their differences to the frames beside them, inverted.
     #[must_use]
     pub fn sheet(&self, inset: Option<&Inset>) -> RgbImage {
         let truths = self.truth.as_deref().unwrap_or_default();
-        let shots = self.takes.iter().map(|take| take.first.len()).max().unwrap_or(0);
+        let shots = self.takes.iter().map(|take| take.shown.len()).max().unwrap_or(0);
         let images = |shot: usize| -> Vec<RgbImage> {
-            let takes = self.takes.iter().map(|take| &take.first);
-            takes.filter_map(|first| first.get(shot)).chain(truths.get(shot)).map(Picture::to_rgb).collect()
+            let takes = self.takes.iter().map(|take| &take.shown);
+            takes.filter_map(|shown| shown.get(shot)).chain(truths.get(shot)).map(Picture::to_rgb).collect()
         };
         let mut rows: Vec<Vec<RgbImage>> = (0..shots).map(images).collect();
         if let (Some(inset), Some(first)) = (inset, rows.first()) {
@@ -184,6 +197,13 @@ impl Study {
     }
 }
 
+/// Which frame of the picture of a scene is being drawn.
+enum Place {
+    Shown,
+    Beside,
+    Other,
+}
+
 impl Take {
     fn new(plan: Plan) -> Self {
         Self {
@@ -191,8 +211,8 @@ impl Take {
             cost: Cost::default(),
             metrics: Metrics::default(),
             mean: Picture::default(),
-            first: Vec::new(),
-            second: None,
+            shown: Vec::new(),
+            beside: None,
             sequence: Vec::new(),
             seconds: 0.0,
         }
@@ -204,7 +224,7 @@ impl Take {
         scene: &Scene,
         textures: &[Texture],
         shot: &Shot,
-        index: u32,
+        (index, place): (u32, Place),
         (average, last): &mut (Option<Picture>, VecDeque<Picture>),
         measured: &mut Measured,
         truth: Option<&Picture>,
@@ -238,17 +258,13 @@ impl Take {
         if is_first_shot {
             self.sequence.push(frame.picture.to_rgb());
         }
-        match index {
-            0 if shot.cause == Cause::All => self.first.push(frame.picture.clone()),
-            1 if is_first_shot => self.second = Some(frame.picture.clone()),
+        match place {
+            Place::Shown if shot.cause == Cause::All => self.shown.push(frame.picture.clone()),
+            Place::Beside if is_first_shot => self.beside = Some(frame.picture.clone()),
             _ => {}
         }
-        let mixes = |stage: &Stage| matches!(stage, Stage::History(_) | Stage::Average(_));
-        let asked = Asked {
-            layers: scene.file.layers.is_some(),
-            ghosts: self.plan.stages.iter().any(mixes),
-            gaze: self.plan.gaze,
-        };
+        let asked =
+            Asked { layers: scene.file.layers.is_some(), ghosts: self.plan.mixes(), gaze: self.plan.gaze };
         measured.add(&frame, truth, asked);
     }
 
@@ -257,9 +273,9 @@ impl Take {
         self
     }
 
-    /// Returns the inverted difference of the first two frames; `None` for a still.
+    /// Returns the inverted difference of the shown frame and the one beside it; `None` for a still.
     #[must_use]
     pub fn difference(&self) -> Option<RgbImage> {
-        Some(picture::difference(self.first.first()?, self.second.as_ref()?))
+        Some(picture::difference(self.shown.first()?, self.beside.as_ref()?))
     }
 }

@@ -65,8 +65,8 @@ fn written() -> String {
          many samples. *Confirmed*: it holds as it\nstands. *Refined*: it holds under a condition that it does not state, or \
          for another reason; the figures say which.\n*Refuted*: it does not hold. Of {} sentences {confirmed} are confirmed, \
          {refined} refined, {refuted} refuted.\n\n`cargo test --test claims -- NAME` measures the row of that name again; \
-         `{HOW_TO_BLESS}` writes\nthis page. Seeds are fixed, so the figures are the same on every machine; no time is among \
-         them.\n",
+         `{HOW_TO_BLESS}` writes\nthis page. Seeds are fixed, so the figures are the same on every machine; no time is measured \
+         for them.\n",
         rows.len(),
     );
     let mut lines = rows.iter().zip(&measured).map(|(row, measured)| line(row, measured));

@@ -3,6 +3,7 @@
 use crate::cost::Row;
 use crate::cost::effects::Price;
 use crate::cost::sizes::Size;
+use crate::cost::techniques::TechniquePrice;
 use serde::Serialize;
 use std::io::{self, Write};
 
@@ -80,6 +81,34 @@ pub fn write_prices(prices: &[Price], out: &mut (impl Write + ?Sized)) -> io::Re
             ns_median: price.ns_median,
             marginal: price.marginal,
             over_fixed: price.over_fixed,
+        }),
+    )
+}
+
+#[derive(Serialize)]
+struct TechniqueLine {
+    technique: &'static str,
+    scene: &'static str,
+    take: &'static str,
+    table: &'static str,
+    without: f64,
+    with: f64,
+}
+
+/// Writes what techniques add; times are nanoseconds a pixel.
+///
+/// # Errors
+/// What the writer says.
+pub fn write_techniques(prices: &[TechniquePrice], out: &mut (impl Write + ?Sized)) -> io::Result<()> {
+    write_lines(
+        out,
+        prices.iter().map(|TechniquePrice { technique, without, with }| TechniqueLine {
+            technique: technique.name,
+            scene: technique.scene,
+            take: technique.take,
+            table: technique.price,
+            without: *without,
+            with: *with,
         }),
     )
 }

@@ -3,6 +3,7 @@
 use crate::cost::Row;
 use crate::cost::effects::{Price, TABLE_1, table_1_ratios};
 use crate::cost::sizes::Size;
+use crate::cost::techniques::{FramePrice, TechniquePrice};
 
 /// A table: headings, and as many cells in every row.
 #[derive(Clone, Debug, PartialEq)]
@@ -120,6 +121,35 @@ pub fn prices(prices: &[Price]) -> Table {
     };
     let headings = ["effect", "source", "over", "ns min", "ns median", "marginal ns", "over fixed"];
     Table { headings: headings.to_vec(), rows: prices.iter().map(cells).collect() }
+}
+
+/// Returns what every technique adds to a frame of its scene.
+#[must_use]
+pub fn techniques(prices: &[TechniquePrice]) -> Table {
+    let cells = |TechniquePrice { technique, without, with }: &TechniquePrice| {
+        let words = [technique.name, technique.source, technique.scene, technique.take, technique.price];
+        let numbers = [*without, *with, with - without].map(|ns| format!("{ns:.1}"));
+        words.map(str::to_owned).into_iter().chain(numbers).collect()
+    };
+    let headings =
+        vec!["technique", "source", "scene", "take", "table", "without", "with", "adds ns a pixel"];
+    Table { headings, rows: prices.iter().map(cells).collect() }
+}
+
+/// Returns the three tests of Table 1 over the scenes of the gallery, as ratios to the traditional one.
+#[must_use]
+pub fn frames(prices: &[FramePrice]) -> Table {
+    let cells = |FramePrice { scene, tests: [traditional, hashed, stochastic] }: &FramePrice| {
+        let ratio = |ns: f64| format!("{:.2}", ns / traditional);
+        vec![(*scene).to_owned(), format!("{traditional:.1}"), ratio(*hashed), ratio(*stochastic)]
+    };
+    let headings = vec![
+        "whole frames",
+        "traditional ns a pixel",
+        "hashed over traditional",
+        "stochastic over traditional",
+    ];
+    Table { headings, rows: prices.iter().map(cells).collect() }
 }
 
 /// Returns Table 1 of the paper as ratios to the traditional test.
