@@ -69,10 +69,14 @@ pub struct Take {
     pub metrics: Metrics,
     /// The mean of the first shot's frames.
     pub mean: Picture,
-    /// The first frame of every shot with all motion: the scene as it is, and from each other distance.
-    pub first: Vec<Picture>,
-    /// The frame after the first, where there is one.
-    pub second: Option<Picture>,
+    /// The index of the frame that is shown: the first, or the last if a take of the scene averages frames.
+    pub frame: u32,
+    /// That frame of every shot with all motion: of the scene as it is, and from each other distance.
+    pub shown: Vec<Picture>,
+    /// The frame beside that of the first shot, where there is one.
+    pub beside: Option<Picture>,
+    /// The smaller depth buffer of the first frame, if the scene asks for it.
+    pub depth: Option<RgbImage>,
     /// The first shot, frame by frame.
     pub sequence: Vec<RgbImage>,
     /// Time that its frames took, in seconds.
@@ -124,13 +128,17 @@ pub fn study(scene: &Scene, progress: &mut dyn FnMut(u64, u64)) -> Study {
     };
     let shots = shots(scene);
     let frames = scene.file.frames.get();
+    let averages = |stage: &Stage| matches!(stage, Stage::History(_) | Stage::Average(_));
+    let shown = if plans.iter().any(|plan| plan.stages.iter().any(averages)) { frames - 1 } else { 0 };
     let per_frame = plans.len() as u64 + u64::from(scene.file.truth.is_some());
     let total = shots.len() as u64 * u64::from(frames) * per_frame;
     let mut done = 0;
     let mut truths: Option<Vec<Picture>> = scene.file.truth.as_ref().map(|_| Vec::new());
     let mut truth_cost = Cost::default();
-    let mut takes: Vec<(Take, Measured)> =
-        plans.into_iter().map(|plan| (Take::new(plan), Measured::default())).collect();
+    let mut takes: Vec<(Take, Measured)> = plans
+        .into_iter()
+        .map(|plan| (Take::new(plan, shown), Measured::new(&scene.file.region, scene.file.depth.as_ref())))
+        .collect();
     for shot in &shots {
         let mut histories = vec![(None, VecDeque::new()); takes.len()];
         takes.iter_mut().for_each(|(_, measured)| measured.begin());
@@ -147,7 +155,9 @@ pub fn study(scene: &Scene, progress: &mut dyn FnMut(u64, u64)) -> Study {
                 done += 1;
                 progress(done, total);
             }
-            if let (Some(truths), Some(truth), 0, Cause::All) = (&mut truths, truth, index, shot.cause) {
+            if let (Some(truths), Some(truth), true) =
+                (&mut truths, truth, index == shown && shot.cause == Cause::All)
+            {
                 truths.push(truth);
             }
         }
@@ -161,20 +171,25 @@ pub fn study(scene: &Scene, progress: &mut dyn FnMut(u64, u64)) -> Study {
 }
 
 impl Study {
-    /// Returns the picture of the scene: the first frames of the takes side by side with the truth last, a row for each shot
-    /// that differs in distance; enlarged insets; and the differences of the first two frames, inverted.
+    /// Returns the picture of the scene: a frame of the takes side by side with the truth last, a row for each shot
+    /// that differs in distance; enlarged insets; smaller depth buffers; and the differences of that frame to the one
+    /// beside it, inverted.
     #[must_use]
     pub fn sheet(&self, inset: Option<&Inset>) -> RgbImage {
         let truths = self.truth.as_deref().unwrap_or_default();
-        let shots = self.takes.iter().map(|take| take.first.len()).max().unwrap_or(0);
+        let shots = self.takes.iter().map(|take| take.shown.len()).max().unwrap_or(0);
         let images = |shot: usize| -> Vec<RgbImage> {
-            let takes = self.takes.iter().map(|take| &take.first);
-            takes.filter_map(|first| first.get(shot)).chain(truths.get(shot)).map(Picture::to_rgb).collect()
+            let takes = self.takes.iter().map(|take| &take.shown);
+            takes.filter_map(|shown| shown.get(shot)).chain(truths.get(shot)).map(Picture::to_rgb).collect()
         };
         let mut rows: Vec<Vec<RgbImage>> = (0..shots).map(images).collect();
         if let (Some(inset), Some(first)) = (inset, rows.first()) {
             let large = first.iter().map(|image| picture::enlarge(image, inset)).collect();
             rows.insert(1, large);
+        }
+        let depths: Vec<RgbImage> = self.takes.iter().filter_map(|take| take.depth.clone()).collect();
+        if !depths.is_empty() {
+            rows.push(depths);
         }
         let differences: Vec<RgbImage> = self.takes.iter().filter_map(Take::difference).collect();
         if !differences.is_empty() {
@@ -185,14 +200,16 @@ impl Study {
 }
 
 impl Take {
-    fn new(plan: Plan) -> Self {
+    fn new(plan: Plan, frame: u32) -> Self {
         Self {
             plan,
             cost: Cost::default(),
             metrics: Metrics::default(),
             mean: Picture::default(),
-            first: Vec::new(),
-            second: None,
+            frame,
+            shown: Vec::new(),
+            beside: None,
+            depth: None,
             sequence: Vec::new(),
             seconds: 0.0,
         }
@@ -235,13 +252,17 @@ impl Take {
         self.seconds += begun.elapsed().as_secs_f64();
         self.cost += frame.cost;
         let is_first_shot = measured.is_first_shot();
+        if let (None, Some(table), Some(depth)) = (&self.depth, &scene.file.depth, &frame.depth) {
+            let ratio = table.ratio.get();
+            self.depth = Some(depth.smaller(ratio).picture(ratio));
+        }
         if is_first_shot {
             self.sequence.push(frame.picture.to_rgb());
         }
-        match index {
-            0 if shot.cause == Cause::All => self.first.push(frame.picture.clone()),
-            1 if is_first_shot => self.second = Some(frame.picture.clone()),
-            _ => {}
+        if index == self.frame && shot.cause == Cause::All {
+            self.shown.push(frame.picture.clone());
+        } else if index.abs_diff(self.frame) == 1 && is_first_shot {
+            self.beside = Some(frame.picture.clone());
         }
         let mixes = |stage: &Stage| matches!(stage, Stage::History(_) | Stage::Average(_));
         let asked = Asked {
@@ -257,9 +278,9 @@ impl Take {
         self
     }
 
-    /// Returns the inverted difference of the first two frames; `None` for a still.
+    /// Returns the inverted difference of the frame that is shown and the one beside it; `None` for a still.
     #[must_use]
     pub fn difference(&self) -> Option<RgbImage> {
-        Some(picture::difference(self.first.first()?, self.second.as_ref()?))
+        Some(picture::difference(self.shown.first()?, self.beside.as_ref()?))
     }
 }

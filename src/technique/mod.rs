@@ -12,6 +12,7 @@ pub mod history;
 pub mod independent;
 pub mod jitter;
 pub mod mask;
+pub mod multisampling;
 pub mod noise_scale;
 pub mod occlusion;
 pub mod order;
@@ -218,6 +219,12 @@ pub const ALL: &[Technique] = &[
         "§7.3",
         "technique::premultiplied",
         "Premultiplied colours leave no halo and need a divide.",
+    ),
+    technique(
+        "multisampling",
+        "§1, §2, §8",
+        "technique::multisampling",
+        "Edges of geometry are smoothed; edges of alpha, which is read once a pixel, are not.",
     ),
     technique(
         "alpha-to-coverage",

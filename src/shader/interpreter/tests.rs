@@ -532,7 +532,11 @@ fn f(i: u32, d: i32) -> u32 {
     assert!(run().is_ok());
     let found = |program: &Program| -> Vec<_> {
         let said = |oddity: &Oddity| (oddity.open, &source[oddity.span.to_range().unwrap()], oddity.lanes);
-        program.oddities().iter().map(|oddity| (said(oddity).0, said(oddity).1.to_owned(), oddity.lanes)).collect()
+        program
+            .oddities()
+            .iter()
+            .map(|oddity| (said(oddity).0, said(oddity).1.to_owned(), oddity.lanes))
+            .collect()
     };
     // Index 3 in a quarter of the lanes; 3 and 4 of the other call in a half.
     let index = (Open::Index, "a[i]".to_owned(), 150);

@@ -216,7 +216,10 @@ mod tests {
 
     #[test]
     fn agreement_counts_and_bounds() {
-        let stage = Stage { class: Class::Bounded { ulp: 2.0, absolute: 0.0, source: "" }, ..*stages().next().unwrap() };
+        let stage = Stage {
+            class: Class::Bounded { ulp: 2.0, absolute: 0.0, source: "" },
+            ..*stages().next().unwrap()
+        };
         let one = |bits: u32| f32::from_bits(1.0_f32.to_bits() + bits);
         let of =
             |device: f32| stage.agreement(&Outputs { inputs: vec![], device: vec![device], rust: vec![1.0] });

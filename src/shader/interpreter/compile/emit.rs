@@ -1,8 +1,8 @@
 //! Operations, one a function; each gives its result a register of its own.
 
-use super::super::{Constant, Open};
 use super::super::error::Unsupported;
 use super::super::op::{Binary, Contracted, Op, Product, Register, Unary};
+use super::super::{Constant, Open};
 use super::{Compiler, MOST_OPERATIONS, MOST_REGISTERS, Value};
 use naga::Span;
 

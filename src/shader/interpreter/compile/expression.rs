@@ -48,7 +48,9 @@ impl<'a> Compiler<'a> {
             Expression::LocalVariable(local) => return Ok(Operand::Pointer(scope.locals[local.index()])),
             Expression::GlobalVariable(global) => return self.global(global).map(Operand::Pointer),
             Expression::AccessIndex { base, index } => return self.access_index(scope, base, index),
-            Expression::Access { base, index } => return self.access(scope, base, index, expressions.get_span(handle)),
+            Expression::Access { base, index } => {
+                return self.access(scope, base, index, expressions.get_span(handle));
+            }
             Expression::Load { pointer } => {
                 let size = self.size(&self.pointee(scope.ty(self.module, pointer)))?;
                 let place = self.pointer(scope, pointer)?;

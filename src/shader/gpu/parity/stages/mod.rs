@@ -81,5 +81,7 @@ mod uniform;
 
 /// Returns every stage, in the order of a threshold.
 pub fn stages() -> impl Iterator<Item = &'static Stage> {
-    [scales::STAGES, hashes::STAGES, uniform::STAGES, thresholds::STAGES, effects::STAGES].into_iter().flatten()
+    [scales::STAGES, hashes::STAGES, uniform::STAGES, thresholds::STAGES, effects::STAGES]
+        .into_iter()
+        .flatten()
 }

@@ -9,8 +9,6 @@ use crate::threshold::robust::{Join, Repairs};
 use crate::threshold::two_scale::Variant;
 use glam::Vec3;
 
-
-
 #[rustfmt::skip]
 pub(super) const STAGES: &[Stage] = &[
     number_stage!(

@@ -9,8 +9,6 @@ use crate::threshold::real::Real;
 use crate::threshold::robust::Join;
 use crate::threshold::two_scale::Variant;
 
-
-
 #[rustfmt::skip]
 pub(super) const STAGES: &[Stage] = &[
     number_stage!(
