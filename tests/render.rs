@@ -10,6 +10,7 @@ use hashed_alpha::render::plan::{Census, Plan, plan};
 use hashed_alpha::render::prepare::{Scene, prepare};
 use hashed_alpha::render::stage::hashes;
 use hashed_alpha::render::study::{Study, study};
+use hashed_alpha::technique::order::Order;
 use hashed_alpha::threshold::batch::Model;
 use hashed_alpha::threshold::cdf::CdfForm;
 use hashed_alpha::threshold::footprint::Footprint;
@@ -17,6 +18,7 @@ use hashed_alpha::threshold::hash::{Cell, Hash, HashKind};
 use hashed_alpha::threshold::hashed::HashedAlpha;
 use hashed_alpha::threshold::robust::{Join, Robust};
 use hashed_alpha::threshold::two_scale::Variant;
+use proptest::prelude::*;
 use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -72,6 +74,24 @@ fn takes() -> Vec<(SceneFile, Effects)> {
         average = { frames = 4 }
     "#;
     takes.push((small("vanishing-foliage"), toml::from_str(combined).expect("known effects")));
+    for table in [
+        "alpha_to_coverage = { samples = 8, pattern = 'hardware' }",
+        "alpha_to_coverage = { samples = 5, pattern = 'pixel' }",
+        "alpha_to_coverage = { samples = 6, pattern = 'random' }\nstochastic = {}",
+        "screen_door = { mask = 'fixed' }",
+        "screen_door = { mask = 'random' }",
+        "screen_door = { mask = 'hashed' }",
+        "stipple = { density = 'high' }\nfixed = { threshold = 0.3 }",
+        "stipple = { density = 'low' }",
+        "multisampling = { samples = 5 }\nlevel_threshold = {}",
+        "multisampling = { samples = 5 }\nalpha_to_coverage = { samples = 5, pattern = 'decorrelated' }\nrobust = {}",
+        "multisampling = { samples = 64 }\nsupersampling = { samples = 2 }\nstipple = { density = 'high' }",
+    ] {
+        let file = small("vanishing-foliage");
+        let set: Effects = toml::from_str(table).expect("known effects");
+        assert_eq!(effects::check(&set), Ok(()), "{table}");
+        takes.push((file, set));
+    }
     takes
 }
 
@@ -165,7 +185,12 @@ fn an_absent_table_leaves_no_trace() {
 
 #[test]
 fn an_absent_table_of_the_scene_is_not_measured() {
-    let file = SceneFile { truth: read("vanishing-foliage").truth, ..small("vanishing-foliage") };
+    let file = SceneFile {
+        truth: read("vanishing-foliage").truth,
+        depth: read("stipple-buffers").depth,
+        region: read("layers").region,
+        ..small("vanishing-foliage")
+    };
     let names =
         |file: SceneFile| -> Vec<String> { drawn(&ready(file)).takes[0].metrics.keys().cloned().collect() };
     let whole = names(file.clone());
@@ -178,6 +203,8 @@ fn an_absent_table_of_the_scene_is_not_measured() {
         (SceneFile { truth: None, ..file.clone() }, &["rmse", "ssim", "coverage_ratio"][..]),
         (SceneFile { distance: None, ..file.clone() }, &["@"]),
         (SceneFile { layers: None, ..file.clone() }, &["layer_correlation"]),
+        (SceneFile { depth: None, ..file.clone() }, &["depth."]),
+        (SceneFile { region: Vec::new(), ..file.clone() }, &[".two"]),
         (still, &["flips", "changed"]),
     ] {
         let left = names(without);
@@ -236,6 +263,18 @@ fn shader_text_has_the_chunks_of_its_stages_only() {
             "fn coarser_by",
             "hashed = {}",
         ),
+        (
+            "hashed = {}\nalpha_to_coverage = { samples = 4, pattern = 'random' }",
+            "fn shuffled",
+            "hashed = {}\nalpha_to_coverage = { samples = 4, pattern = 'decorrelated' }",
+        ),
+        (
+            "alpha_to_coverage = { samples = 4, pattern = 'pixel' }",
+            "fn pixel_value",
+            "screen_door = { mask = 'fixed' }",
+        ),
+        ("screen_door = { mask = 'hashed' }", "fn randomised", "screen_door = { mask = 'random' }"),
+        ("stipple = { density = 'high' }", "fn is_apart", "fixed = {}"),
     ] {
         assert!(of(with).contains(chunk), "{with}");
         assert!(!of(without).contains(chunk), "{without}");
@@ -317,6 +356,137 @@ fn alpha_0_never_shows_and_alpha_1_has_no_hole() {
             assert!((coverage - alpha).abs() < 1e-6, "{coverage}: {}", study.takes[0].plan.name);
         }
     }
+}
+
+/// A table of that name with parameters by `words`; the literal listings on planes where they compute a number.
+fn table(name: &str, words: [u32; 3]) -> String {
+    let of = |all: &[&str], word: u32| format!("'{}'", all[word as usize % all.len()]);
+    let share = |word: u32| f64::from(word % 1000 + 1) / 1000.0;
+    let hash = || of(&["sine", "sine-chi2", "mm4", "xxhash32", "pcg3d", "pcg4d", "pcg-nested"], words[0]);
+    let scale = 0.2 + 5.0 * share(words[1]);
+    // In its own coordinates a card follows an axis: Listing 2 divides by zero there, see below.
+    let follows_an_axis = words[0] % 4 == 2;
+    let variant = |literal: bool| {
+        of(&["isotropic", "anisotropic"], if literal && follows_an_axis { 0 } else { words[2] })
+    };
+    let frames = words[0] % 8 + 1;
+    let orders = Order::ALL.map(Order::name);
+    let spaces = ["object", "deformed", "part", "world"];
+    let patterns = ["regular", "jittered", "decorrelated", "independent", "hardware", "random", "pixel"];
+    let inner = match name {
+        "premultiplied" | "finest_level" | "level_threshold" | "scaled_alpha" | "stochastic"
+        | "test_then_blend" | "naive_blend" => String::new(),
+        "supersampling" => format!("samples = {}", words[0] % 3 + 1),
+        "limited_level" => format!("level = {:.1}", 6.0 * share(words[0])),
+        "scaled_texels" => format!("radius = {}", words[0] % 3),
+        "fixed" => format!("threshold = {}", share(words[0])),
+        "hashed" => format!("hash = {}, hash_scale = {scale}, variant = {}", hash(), variant(true)),
+        "robust" => {
+            let join = of(&["interpolate", "copula", "dithered"], words[0] / 7);
+            format!("hash = {}, hash_scale = {scale}, variant = {}, join = {join}", hash(), variant(false))
+        }
+        "screen_door" => format!("mask = {}", of(&["fixed", "random", "hashed"], words[0])),
+        "stipple" => format!("density = {}", of(&["high", "low"], words[0])),
+        "coordinates" => format!("space = {}", of(&spaces, words[0])),
+        "independent" => format!("frames = {frames}, by = {}", of(&["offset", "word"], words[1])),
+        "jitter" | "average" => format!("frames = {frames}"),
+        "temporal" => format!("frames = {frames}, order = {}", of(&orders, words[1])),
+        // The same samples for both.
+        "multisampling" => format!("samples = {}", words[2] % 9 + 1),
+        "alpha_to_coverage" => {
+            format!("samples = {}, pattern = {}", words[2] % 9 + 1, of(&patterns, words[0]))
+        }
+        "fade_in" => {
+            let (lod, authored) = (0.1 + 6.0 * share(words[0]), share(words[1]));
+            format!(
+                "full_noise_lod = {lod}, authored = {authored}, anisotropy = {}",
+                words[2].is_multiple_of(2)
+            )
+        }
+        "conservative" => format!("corrected = {}", words[0].is_multiple_of(2)),
+        "foveated" => format!("gaze = [5.0, 9.0], radius = 3.0, slope = {}", share(words[0])),
+        "occlusion" => {
+            let chi = of(&["two-hashes", "offsets", "word", "seeded", "random"], words[1]);
+            format!("reach = {}, chi = {chi}", share(words[0]))
+        }
+        "history" => format!("weight = {}, clamp = {}", share(words[0]), words[1].is_multiple_of(2)),
+        _ => panic!("`{name}` needs parameters here"),
+    };
+    format!("{name} = {{ {inner} }}\n")
+}
+
+/// The effects that `present` chooses; of those that do not go together, the ones that `order` puts first.
+fn chosen(present: u64, order: u64, words: [u32; 3]) -> Effects {
+    let mut set = Effects::default();
+    let start = order as usize % ALL.len();
+    for (index, known) in ALL.iter().enumerate().cycle().skip(start).take(ALL.len()) {
+        if present >> index & 1 == 0 {
+            continue;
+        }
+        let text: String = ALL
+            .iter()
+            .filter(|other| other.name == known.name || (other.is_in)(&set))
+            .map(|other| table(other.name, words))
+            .collect();
+        let more: Effects = toml::from_str(&text).expect("known effects");
+        if effects::check(&more).is_ok() {
+            set = more;
+        }
+    }
+    set
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn no_combination_of_effects_shows_alpha_0_or_holes_in_alpha_1(
+        present in any::<u64>(), order in any::<u64>(), words in prop::array::uniform3(any::<u32>()),
+    ) {
+        let mut file = SceneFile { resolution: [16, 16], ..small("noise-scales") };
+        let set = chosen(present, order, words);
+        for alpha in [0.0, 1.0] {
+            file.texture[0].constant.as_mut().expect("a veil").alpha = alpha;
+            let scene = with(&file, set.clone());
+            let study = drawn(&scene);
+            let take = &study.takes[0];
+            // A single pixel would be 4e-3; averages round.
+            let coverage = take.metrics["coverage"];
+            prop_assert!((coverage - alpha).abs() < 1e-5, "{coverage} for {alpha}: {}", take.plan.name);
+            let predicted = take.plan.predict(&scene, &textures(&scene, take.plan.textures));
+            prop_assert_eq!(take.cost, predicted, "{}", take.plan.name);
+        }
+    }
+}
+
+/// The property above reaches every effect, and pairs of them.
+#[test]
+fn combinations_of_effects_have_every_effect_beside_every_other_that_it_goes_with() {
+    let mut rng =
+        proptest::test_runner::TestRng::deterministic_rng(proptest::test_runner::RngAlgorithm::ChaCha);
+    let sets: Vec<Effects> =
+        (0..600).map(|_| chosen(rng.next_u64(), rng.next_u64(), [0; 3].map(|_| rng.next_u32()))).collect();
+    for known in ALL {
+        assert!(sets.iter().any(|set| (known.is_in)(set)), "{}", known.name);
+    }
+    let pairs = ALL.iter().flat_map(|a| ALL.iter().map(move |b| (a, b)));
+    let met = pairs.filter(|(a, b)| sets.iter().any(|set| (a.is_in)(set) && (b.is_in)(set))).count();
+    assert!(met > ALL.len() * ALL.len() / 2, "{met}");
+}
+
+/// The one way that the literal listings leave, and the property leaves out: where they divide by zero they compute no
+/// threshold, and keep everything.
+#[test]
+fn a_literal_listing_shows_alpha_0_on_a_plane_that_follows_an_axis() {
+    let mut file = SceneFile { resolution: [16, 16], ..small("noise-scales") };
+    file.surface[0].model_turn = [0.0; 3];
+    file.texture[0].constant.as_mut().expect("a veil").alpha = 0.0;
+    let coverage = |text: &str| {
+        let set: Effects = toml::from_str(text).expect("known effects");
+        drawn(&with(&file, set)).takes[0].metrics["coverage"]
+    };
+    assert_eq!(coverage("hashed = { variant = 'anisotropic' }"), 1.0);
+    assert_eq!(coverage("robust = { variant = 'anisotropic' }"), 0.0);
 }
 
 #[test]

@@ -3,10 +3,11 @@
 //! Without `glslangValidator` and `spirv-val` the trials that need them are ignored and say so; with
 //! `HASHED_ALPHA_REQUIRE=compilers` that is a failure.
 
-use hashed_alpha::shader::assemble::{Coverage, FadeIn, ShaderOptions, Source, Stratify};
+use hashed_alpha::shader::assemble::{Coverage, FadeIn, ScreenDoor, ShaderOptions, Source, Strata, Stratify};
 use hashed_alpha::shader::export::{Language, export};
 use hashed_alpha::shader::own;
 use hashed_alpha::technique::order::Order;
+use hashed_alpha::technique::stipple::Density;
 use hashed_alpha::threshold::cdf::CdfForm;
 use hashed_alpha::threshold::hash::HashKind;
 use hashed_alpha::threshold::robust::Join;
@@ -76,13 +77,20 @@ fn options() -> Vec<ShaderOptions> {
     let effects = |source| ShaderOptions {
         source,
         stratify: Some(Stratify { frames: size(8), order: Order::Alternating }),
-        coverage: Some(Coverage { samples: size(6), decorrelated: true }),
+        coverage: Some(Coverage { samples: size(6), strata: Strata::Decorrelated }),
         fade_in: Some(FadeIn { full_noise_lod: 6.0, anisotropy: true }),
         ..ShaderOptions::robust(Variant::Anisotropic)
     };
     all.extend(
-        [Source::Stochastic, Source::Fixed, Source::Regular(size(4))]
-            .map(|source| ShaderOptions { source, ..ShaderOptions::listing(Variant::Isotropic) }),
+        [
+            Source::Stochastic,
+            Source::Fixed,
+            Source::Regular(size(4)),
+            Source::PixelMask(size(4)),
+            Source::ScreenDoor(ScreenDoor::RandomMask(5)),
+            Source::Stipple(Density::High),
+        ]
+        .map(|source| ShaderOptions { source, ..ShaderOptions::listing(Variant::Isotropic) }),
     );
     all.push(effects(Source::Robust(Join::Copula)));
     all.push(effects(Source::Listing(CdfForm::Literal)));

@@ -5,7 +5,7 @@
 use core::num::{NonZeroU16, NonZeroU32};
 use hashed_alpha::scene::fragment::Fragment;
 use hashed_alpha::shader::assemble::{
-    Coverage, FadeIn, ScreenDoor, ShaderOptions, Source, Stratify, assemble,
+    Coverage, FadeIn, ScreenDoor, ShaderOptions, Source, Strata, Stratify, assemble,
 };
 use hashed_alpha::shader::beside;
 use hashed_alpha::shader::export::{self, export};
@@ -14,7 +14,8 @@ use hashed_alpha::shader::own::{self, OwnShader};
 use hashed_alpha::technique::conservative;
 use hashed_alpha::technique::foveated::Gaze;
 use hashed_alpha::technique::occlusion::cosine_direction;
-use hashed_alpha::technique::{order::Order, screen_door};
+use hashed_alpha::technique::stipple::{self, Density};
+use hashed_alpha::technique::{mask, order::Order, screen_door};
 use hashed_alpha::threshold::cdf::CdfForm;
 use hashed_alpha::threshold::footprint::Footprint;
 use hashed_alpha::threshold::hash::integer::pcg4d;
@@ -230,15 +231,16 @@ fn effects_twin(
             _ => order.threshold(value, frame, n),
         };
     }
-    if let Some(Coverage { samples, decorrelated }) = options.coverage {
+    if let Some(Coverage { samples, strata }) = options.coverage {
         let n = NonZeroU32::from(samples);
         let [x, y] = fragment.pixel.to_array().map(|c| c as u32);
         let words = pcg4d([x, y, fragment.frame, fragment.layer]);
         let xi = [open_lattice::<f32>(words[1]), open_lattice(words[2])];
-        let stratum = match (decorrelated, literal) {
-            (false, _) => sample,
-            (true, true) => coverage::decorrelated_literal(xi, sample, n),
-            (true, false) => coverage::decorrelated(xi, sample, n),
+        let stratum = match (strata, literal) {
+            (Strata::InOrder, _) => sample,
+            (Strata::Decorrelated, true) => coverage::decorrelated_literal(xi, sample, n),
+            (Strata::Decorrelated, false) => coverage::decorrelated(xi, sample, n),
+            (Strata::Shuffled, _) => mask::shuffled(words[3], sample, n),
         };
         value = if literal {
             coverage::jittered_literal(value, stratum, n)
@@ -277,11 +279,16 @@ fn effects_are_the_same_bits() {
         };
         for frames in [1, 2, 7, 8] {
             for order in orders.iter().copied() {
-                for (decorrelated, anisotropy) in [(false, true), (true, false), (true, true)] {
+                for (strata, anisotropy) in [
+                    (Strata::InOrder, true),
+                    (Strata::Decorrelated, false),
+                    (Strata::Decorrelated, true),
+                    (Strata::Shuffled, false),
+                ] {
                     for texel in [[1.0, 1.0], [0.0, 1.0], [0.0, 0.0], [3.0, 0.5], [0.25, 9.0]] {
                         let options = ShaderOptions {
                             stratify: Some(Stratify { frames: size(frames), order }),
-                            coverage: Some(Coverage { samples: size(frames + 1), decorrelated }),
+                            coverage: Some(Coverage { samples: size(frames + 1), strata }),
                             fade_in: Some(FadeIn { full_noise_lod: 6.0, anisotropy }),
                             ..plain
                         };
@@ -308,21 +315,44 @@ fn effects_are_the_same_bits() {
 }
 
 #[test]
-fn screen_doors_are_the_same_bits() {
+fn screen_doors_and_stipple_are_the_same_bits() {
     let mut fragments = fragments(1000);
     for (index, fragment) in (0..).zip(&mut fragments) {
         fragment.pixel = glam::dvec2(f64::from(index % 37) + 0.5, f64::from(index / 37) + 0.5);
     }
-    for door in [ScreenDoor::Fixed, ScreenDoor::Randomised] {
-        let options =
-            ShaderOptions { source: Source::ScreenDoor(door), ..ShaderOptions::listing(Variant::Isotropic) };
+    let sources =
+        [ScreenDoor::Fixed, ScreenDoor::RandomMask(5), ScreenDoor::Randomised].map(Source::ScreenDoor);
+    for source in sources.into_iter().chain([Density::High, Density::Low].map(Source::Stipple)) {
+        let options = ShaderOptions { source, ..ShaderOptions::listing(Variant::Isotropic) };
         for (fragment, found) in fragments.iter().zip(run(&read(&options, &[]), &fragments)) {
             let pixel = fragment.pixel.to_array().map(|c| c as u32);
-            let wanted = match door {
-                ScreenDoor::Fixed => screen_door::fixed(pixel),
-                ScreenDoor::Randomised => screen_door::randomised(pixel, fragment.layer),
+            let wanted = match source {
+                Source::ScreenDoor(ScreenDoor::RandomMask(seed)) => screen_door::random_mask(pixel, seed),
+                Source::ScreenDoor(ScreenDoor::Randomised) => screen_door::randomised(pixel, fragment.layer),
+                Source::Stipple(density) => stipple::threshold(density, pixel, 0.5),
+                _ => screen_door::fixed(pixel),
             };
-            assert!(same(found, wanted), "{door:?} {fragment:?}: {found} {wanted}");
+            assert!(same(found, wanted), "{source:?} {fragment:?}: {found} {wanted}");
+        }
+    }
+}
+
+#[test]
+fn pixel_masks_are_the_same_bits() {
+    let fragments = fragments(1000);
+    for samples in [1, 3, 8] {
+        let samples = NonZeroU16::new(samples).unwrap();
+        let options = ShaderOptions {
+            source: Source::PixelMask(samples),
+            ..ShaderOptions::listing(Variant::Isotropic)
+        };
+        let sample = u32::from(samples.get()) / 2;
+        let written = sample.to_string();
+        let found = run(&read(&options, &[("sample_index", &written)]), &fragments);
+        for (fragment, found) in fragments.iter().zip(found) {
+            let pixel = fragment.pixel.to_array().map(|c| c as u32);
+            let wanted = mask::turned(mask::pixel_value(pixel), sample, samples.into());
+            assert!(same(found, wanted), "{samples} {fragment:?}: {found} {wanted}");
         }
     }
 }

@@ -4,9 +4,10 @@
 
 use core::num::NonZeroU16;
 use hashed_alpha::shader::assemble::{
-    Coverage, FadeIn, InvalidOption, ScreenDoor, ShaderOptions, Source, Stratify, assemble,
+    Coverage, FadeIn, InvalidOption, ScreenDoor, ShaderOptions, Source, Strata, Stratify, assemble,
 };
 use hashed_alpha::technique::order::Order;
+use hashed_alpha::technique::stipple::Density;
 use hashed_alpha::threshold::cdf::CdfForm;
 use hashed_alpha::threshold::hash::HashKind;
 use hashed_alpha::threshold::robust::Join;
@@ -25,7 +26,11 @@ fn sources() -> impl Iterator<Item = Source> {
         Source::Fixed,
         Source::Regular(size(4)),
         Source::ScreenDoor(ScreenDoor::Fixed),
+        Source::ScreenDoor(ScreenDoor::RandomMask(5)),
         Source::ScreenDoor(ScreenDoor::Randomised),
+        Source::PixelMask(size(4)),
+        Source::Stipple(Density::High),
+        Source::Stipple(Density::Low),
     ])
 }
 
@@ -49,8 +54,8 @@ fn plain() -> impl Iterator<Item = ShaderOptions> {
 fn with_effects() -> impl Iterator<Item = ShaderOptions> {
     let orders = Order::ALL.map(|order| Some(Stratify { frames: size(7), order }));
     let stratify: Vec<_> = orders.into_iter().chain([None]).collect();
-    let coverage = [None, Some(false), Some(true)]
-        .map(|choice| choice.map(|decorrelated| Coverage { samples: size(6), decorrelated }));
+    let coverage = [None, Some(Strata::InOrder), Some(Strata::Decorrelated), Some(Strata::Shuffled)]
+        .map(|choice| choice.map(|strata| Coverage { samples: size(6), strata }));
     let fade_in = [None, Some(false), Some(true)]
         .map(|choice| choice.map(|anisotropy| FadeIn { full_noise_lod: 6.0, anisotropy }));
     sources().flat_map(move |source| {
@@ -158,10 +163,10 @@ fn what_is_not_asked_for_leaves_no_trace() {
         stratify: Some(Stratify { frames: size(7), order }),
         ..ShaderOptions::robust(Variant::Isotropic)
     };
-    let door = |door| ShaderOptions {
-        source: Source::ScreenDoor(door),
-        ..ShaderOptions::robust(Variant::Isotropic)
-    };
+    let of = |source| ShaderOptions { source, ..ShaderOptions::robust(Variant::Isotropic) };
+    let door = |door| of(Source::ScreenDoor(door));
+    let coverage = Some(Coverage { samples: size(4), strata: Strata::Shuffled });
+    let shuffled = ShaderOptions { coverage, ..ShaderOptions::robust(Variant::Isotropic) };
     for (options, words) in [
         (stratify(Order::Ascending), &["fn stratified"][..]),
         (stratify(Order::Alternating), &["fn alternating"]),
@@ -169,7 +174,11 @@ fn what_is_not_asked_for_leaves_no_trace() {
         (stratify(Order::VanDerCorputLiteral), &["fn radical_inverse", "fn van_der_corput"]),
         (stratify(Order::PhaseRotated), &["fn rotated(", "fn entered"]),
         (door(ScreenDoor::Fixed), &["fn ordered", "fn regular"]),
-        (door(ScreenDoor::Randomised), &["fn randomised", "fn door_word"]),
+        (door(ScreenDoor::RandomMask(5)), &["fn random_mask", ", 5u)"]),
+        (door(ScreenDoor::Randomised), &["fn randomised", "fn murmur_words"]),
+        (of(Source::PixelMask(size(4))), &["fn pixel_value", "fn turned"]),
+        (of(Source::Stipple(Density::Low)), &["fn is_apart", "select(1.0, 0.5"]),
+        (shuffled, &["fn shuffled", "fn pcg("]),
     ] {
         let text = assemble(&options).unwrap();
         assert!(words.iter().all(|word| text.contains(word) && !plain.contains(word)), "{text}");

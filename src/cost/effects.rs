@@ -7,6 +7,8 @@ use super::Effort;
 use super::clock::{Contender, race};
 use super::pool::{Pool, SLICE, WIDE};
 use crate::stats::seed;
+use crate::technique::stipple::{self, Density};
+use crate::technique::{mask, screen_door};
 use crate::threshold::batch::{Batch, Model, Tier};
 use crate::threshold::fade_in::{anisotropy, blend, fade_in};
 use crate::threshold::fixed::{FIXED_THRESHOLD, passes};
@@ -139,6 +141,21 @@ const EFFECTS: &[Effect] = &[
         test: |f, slice, _| f.cover(slice, |_, i, _| coverage::regular(i, EIGHT)),
     },
     Effect {
+        name: "alpha to coverage, 8 as hardware",
+        source: "§3, §8",
+        over: "fixed",
+        test: |f, slice, _| f.cover(slice, |_, i, _| mask::hardware_threshold(i, EIGHT)),
+    },
+    Effect {
+        name: "alpha to coverage, 8 by pixel",
+        source: "Humus 2009",
+        over: "fixed",
+        test: |f, slice, t| {
+            t.iter_mut().enumerate().for_each(|(k, t)| *t = mask::pixel_value(pixel(k)));
+            f.cover(slice, |k, i, _| mask::turned(t[k], i, EIGHT))
+        },
+    },
+    Effect {
         name: "hashed, 8 jittered samples",
         source: "Eq. 8",
         over: "hashed",
@@ -154,6 +171,48 @@ const EFFECTS: &[Effect] = &[
         test: |f, slice, t| {
             f.hashed(Variant::Isotropic, slice, t);
             f.cover(slice, |k, i, xi| coverage::jittered(t[k], coverage::decorrelated(xi, i, EIGHT), EIGHT))
+        },
+    },
+    Effect {
+        name: "hashed, 8 shuffled samples",
+        source: "§3 (Enderton et al. 2010)",
+        over: "hashed",
+        test: |f, slice, t| {
+            f.hashed(Variant::Isotropic, slice, t);
+            f.cover(slice, |k, i, [xi, _]| {
+                coverage::jittered(t[k], mask::shuffled(xi.to_bits(), i, EIGHT), EIGHT)
+            })
+        },
+    },
+    Effect {
+        name: "screen door, fixed",
+        source: "§3",
+        over: "fixed",
+        test: |f, slice, t| {
+            t.iter_mut().enumerate().for_each(|(k, t)| *t = screen_door::fixed(pixel(k)));
+            f.test(slice, t)
+        },
+    },
+    Effect {
+        name: "screen door, hashed",
+        source: "§8.1",
+        over: "fixed",
+        test: |f, slice, t| {
+            let layer = slice as u32;
+            t.iter_mut().enumerate().for_each(|(k, t)| *t = screen_door::randomised(pixel(k), layer));
+            f.test(slice, t)
+        },
+    },
+    Effect {
+        name: "stipple",
+        source: "Ols 2009",
+        over: "fixed",
+        test: |f, slice, t| {
+            let kept = FIXED_THRESHOLD as f32;
+            t.iter_mut()
+                .enumerate()
+                .for_each(|(k, t)| *t = stipple::threshold(Density::High, pixel(k), kept));
+            f.test(slice, t)
         },
     },
     Effect {
@@ -241,6 +300,11 @@ impl Fragments {
         };
         (0..SLICE).map(of_fragment).sum()
     }
+}
+
+/// The pixel of a fragment of a slice, which covers a square of 64 x 64 pixels or more.
+fn pixel(fragment: usize) -> [u32; 2] {
+    [fragment as u32 % 64, fragment as u32 / 64]
 }
 
 fn stratified(frame: usize, thresholds: &mut Thresholds) {
@@ -362,8 +426,10 @@ mod tests {
             let kept = f64::from((effect.test)(&fragments, 1, &mut thresholds));
             let samples = if effect.name.contains("8 ") && !effect.name.contains("frames") { 8 } else { 1 };
             let share = kept / f64::from(samples) / SLICE as f64;
-            // Regular samples keep `floor` of 8 alpha, half a sample less; the listing is NaN nowhere here.
-            assert!((share - 0.5).abs() < 0.08, "{}: {share}", effect.name);
+            // Hardware keeps `floor` of 8 alpha, half a sample less; the stipple a quarter less; the listing is NaN nowhere
+            // here.
+            let expected = if effect.name == "stipple" { 0.375 } else { 0.5 };
+            assert!((share - expected).abs() < 0.08, "{}: {share}", effect.name);
         }
     }
 

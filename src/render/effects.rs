@@ -3,8 +3,9 @@
 
 use super::tables::{
     AlphaToCoverage, Apart, Average, Conservative, Coordinates, FadeIn, FinestLevel, Fixed, Foveated, Hashed,
-    History, Independent, Jitter, LevelThreshold, LimitedLevel, NaiveBlend, Occlusion, Pattern,
-    Premultiplied, RobustHash, ScaledAlpha, ScaledTexels, Stochastic, Supersampling, Temporal, TestThenBlend,
+    History, Independent, Jitter, LevelThreshold, LimitedLevel, Multisampling, NaiveBlend, Occlusion,
+    Pattern, Premultiplied, RobustHash, ScaledAlpha, ScaledTexels, ScreenDoor, Stipple, Stochastic,
+    Supersampling, Temporal, TestThenBlend,
 };
 use crate::threshold::hash::HashKind;
 use crate::threshold::two_scale::Variant;
@@ -81,12 +82,17 @@ effects! {
         "hashes: 2 a fragment (1 for the single scale)";
     robust: RobustHash, "not in the paper", "Hashes a threshold with every repair",
         "hashes: 2 to 8 a fragment, by join and variant";
+    screen_door: ScreenDoor, "§3, §8.1", "Compares with thresholds that lie over tiles of pixels",
+        "hashes: 3 a fragment if hashed";
+    stipple: Stipple, "Ols 2009", "Leaves out one pixel of four, or three, wherever a surface is not opaque", "nothing";
     coordinates: Coordinates, "§5.2, §5.3", "Hashes in other than object coordinates", "nothing";
     independent: Independent, "§7.2.2", "Hashes at another place in every frame", "nothing but an addition a hash";
     jitter: Jitter, "§7.2", "Moves the camera within a pixel from frame to frame", "nothing";
     temporal: Temporal, "§7.2.3, Eq. 6", "Divides the range of thresholds among frames", "nothing but an addition";
-    alpha_to_coverage: AlphaToCoverage, "§8, Eqs. 7 to 9", "Tests alpha at every sample of a pixel",
-        "tests: samples a fragment; hashes: 1 more a fragment if decorrelated";
+    multisampling: Multisampling, "§1, §2, §8", "Tests geometry at several places of each pixel, and reads alpha once",
+        "fragments: one for every pixel and triangle that meet in a sample";
+    alpha_to_coverage: AlphaToCoverage, "§3, §8, Eqs. 7 to 9, Humus 2009", "Tests alpha at every sample of a pixel",
+        "tests: samples a fragment; hashes: 1 more a fragment if decorrelated, random or by pixel";
     fade_in: FadeIn, "§7.1, Eqs. 3 to 5", "Fades noise in with distance", "nothing but a mixture";
     naive_blend: NaiveBlend, "§3", "Blends every fragment as it comes, with depth and without a test",
         "blends: 1 a fragment; no tests";
@@ -114,6 +120,7 @@ pub fn check(effects: &Effects) -> Result<(), String> {
         ("stochastic", effects.stochastic.is_some()),
         ("hashed", effects.hashed.is_some()),
         ("robust", effects.robust.is_some()),
+        ("screen_door", effects.screen_door.is_some()),
     ];
     let sources: Vec<&str> = sources.iter().filter(|(_, present)| *present).map(|(name, _)| *name).collect();
     if sources.len() > 1 {
@@ -123,6 +130,8 @@ pub fn check(effects: &Effects) -> Result<(), String> {
         let others = [
             ("alpha_to_coverage", effects.alpha_to_coverage.is_some()),
             ("conservative", effects.conservative.is_some()),
+            ("multisampling", effects.multisampling.is_some()),
+            ("stipple", effects.stipple.is_some()),
             ("occlusion", effects.occlusion.is_some()),
             ("test_then_blend", effects.test_then_blend.is_some()),
         ];
@@ -131,7 +140,7 @@ pub fn check(effects: &Effects) -> Result<(), String> {
             return Err(format!("`naive_blend` tests nothing and `{other}` does; keep one"));
         }
     }
-    let noisy = !matches!(sources[..], [] | ["fixed" | "level_threshold"]);
+    let noisy = !matches!(sources[..], [] | ["fixed" | "level_threshold" | "screen_door"]);
     let hashes = matches!(sources[..], ["hashed" | "robust"]);
     let unit = |what: &str, value: f64| {
         if (0.0..=1.0).contains(&value) { Ok(()) } else { Err(format!("`{what}` must be in [0, 1]")) }
@@ -141,6 +150,7 @@ pub fn check(effects: &Effects) -> Result<(), String> {
     };
     if let Some(fixed) = &effects.fixed {
         unit("fixed.threshold", f64::from(fixed.threshold))?;
+        positive("fixed.threshold", f64::from(fixed.threshold))?;
     }
     if let Some(hashed) = &effects.hashed {
         positive("hashed.hash_scale", hashed.hash_scale)?;
@@ -154,6 +164,7 @@ pub fn check(effects: &Effects) -> Result<(), String> {
     if let Some(fade_in) = &effects.fade_in {
         positive("fade_in.full_noise_lod", f64::from(fade_in.full_noise_lod))?;
         unit("fade_in.authored", f64::from(fade_in.authored))?;
+        positive("fade_in.authored", f64::from(fade_in.authored))?;
     }
     if let Some(foveated) = &effects.foveated {
         let gaze = foveated.gaze();
@@ -197,15 +208,35 @@ pub fn check(effects: &Effects) -> Result<(), String> {
             return Err(format!("`{what}` needs {need}: there is no noise for it to work on"));
         }
     }
+    if let Some(multisampling) = &effects.multisampling {
+        if multisampling.samples.get() > MOST_SAMPLES {
+            return Err(format!("`multisampling.samples` must be from 1 to {MOST_SAMPLES}"));
+        }
+        if effects.alpha_to_coverage.as_ref().is_some_and(|c| c.samples != multisampling.samples) {
+            return Err("`multisampling` and `alpha_to_coverage` must have the same samples".to_owned());
+        }
+        if effects.conservative.is_some() || effects.occlusion.is_some() {
+            return Err(
+                "`multisampling` knows places in a pixel, `conservative` and `occlusion` pixels; keep one"
+                    .to_owned(),
+            );
+        }
+        if effects.test_then_blend.is_some() {
+            return Err(
+                "`test_then_blend` blends whole pixels, not samples; take `multisampling` out".to_owned()
+            );
+        }
+    }
     if let Some(coverage) = &effects.alpha_to_coverage {
         if coverage.samples.get() > MOST_SAMPLES {
             return Err(format!("`alpha_to_coverage.samples` must be from 1 to {MOST_SAMPLES}"));
         }
         match coverage.pattern {
-            Pattern::Regular if !sources.is_empty() => {
-                return Err(format!("the regular pattern needs no threshold; take `{}` out", sources[0]));
+            Pattern::Regular | Pattern::Hardware | Pattern::Pixel if !sources.is_empty() => {
+                let pattern = coverage.pattern.name();
+                return Err(format!("the {pattern} pattern needs no threshold; take `{}` out", sources[0]));
             }
-            Pattern::Jittered | Pattern::Decorrelated if !noisy => {
+            Pattern::Jittered | Pattern::Decorrelated | Pattern::Random if !noisy => {
                 return Err("that pattern needs `hashed`, `robust` or `stochastic`".to_owned());
             }
             Pattern::Independent if effects.stochastic.is_none() => {
@@ -219,12 +250,16 @@ pub fn check(effects: &Effects) -> Result<(), String> {
             "`conservative` corrects thresholds and `test_then_blend` blends without; keep one".to_owned()
         );
     }
-    if effects.test_then_blend.is_some()
-        && (noisy || effects.alpha_to_coverage.is_some() || effects.level_threshold.is_some())
+    let is_fixed = matches!(sources[..], [] | ["fixed"]) && effects.alpha_to_coverage.is_none();
+    for (what, present) in
+        [("test_then_blend", effects.test_then_blend.is_some()), ("stipple", effects.stipple.is_some())]
     {
-        return Err(
-            "`test_then_blend` works with one threshold: take the other away or use `fixed`".to_owned()
-        );
+        if present && !is_fixed {
+            return Err(format!("`{what}` works with one threshold: take the other away or use `fixed`"));
+        }
+    }
+    if effects.test_then_blend.is_some() && effects.stipple.is_some() {
+        return Err("`test_then_blend` would fill the holes of `stipple`; keep one".to_owned());
     }
     if let Some(occlusion) = &effects.occlusion {
         positive("occlusion.reach", occlusion.reach)?;

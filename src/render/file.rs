@@ -3,7 +3,7 @@
 use super::effects::{self, Effects};
 use super::expect::Expectation;
 use super::mistake::{nearest, place, suggest};
-use super::procedural::{Checkerboard, Constant, Hair, Leaves, Wire};
+use super::procedural::{Checkerboard, Constant, Hair, Leaves, Ramp, Wire};
 use super::surface::Surface;
 use super::texture::{Filter, Wrap};
 use super::view::View;
@@ -53,6 +53,11 @@ pub struct SceneFile {
     pub distance: Option<Distance>,
     /// Correlation of the first two layers.
     pub layers: Option<Layers>,
+    /// The depth buffer, shown and measured.
+    pub depth: Option<DepthBuffer>,
+    /// Parts of the picture that are measured alone.
+    #[serde(default)]
+    pub region: Vec<Region>,
     /// What is enlarged in the picture.
     pub inset: Option<Inset>,
     /// The effects, one set a take; `"auto"` lets the planner choose.
@@ -91,6 +96,8 @@ pub struct TextureTable {
     pub checkerboard: Option<Checkerboard>,
     /// The same alpha everywhere.
     pub constant: Option<Constant>,
+    /// Alpha from 0 at the left edge to 1 at the right.
+    pub ramp: Option<Ramp>,
     /// A PNG or JPEG file.
     pub image: Option<ImageFile>,
 }
@@ -153,6 +160,26 @@ pub struct Distance {
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Layers {}
+
+/// A depth buffer, and a smaller one that is made of it.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct DepthBuffer {
+    /// How many pixels along each side become one of the smaller buffer.
+    pub ratio: NonZeroU32,
+}
+
+/// A part of the picture whose coverage is a number of its own.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Region {
+    /// What its numbers are called.
+    pub name: String,
+    /// Its upper left pixel.
+    pub corner: [u32; 2],
+    /// Its width and height in pixels.
+    pub size: [u32; 2],
+}
 
 /// A part of the picture, enlarged.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -322,7 +349,7 @@ fn check(scene: &SceneFile) -> Result<(), Wrong> {
     Ok(())
 }
 
-const TEXTURES: &str = "leaves, wire, hair, checkerboard, constant, image";
+const TEXTURES: &str = "leaves, wire, hair, checkerboard, constant, ramp, image";
 const SURFACES: &str = "card, plane, fence, foliage, instances, hair, stack, mesh";
 
 fn exactly_one(span: Option<Range<usize>>, what: &str, kinds: &[&str], known: &str) -> Result<(), Wrong> {
@@ -342,6 +369,7 @@ impl TextureTable {
             ("hair", self.hair.is_some()),
             ("checkerboard", self.checkerboard.is_some()),
             ("constant", self.constant.is_some()),
+            ("ramp", self.ramp.is_some()),
             ("image", self.image.is_some()),
         ];
         all.into_iter().filter(|&(_, present)| present).map(|(name, _)| name).collect()

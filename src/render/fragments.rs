@@ -1,6 +1,7 @@
 //! The fragments of one tile as columns. A column that nobody needs stays empty.
 
 use crate::threshold::batch::ColumnBuffer;
+use core::num::NonZeroU32;
 use glam::Vec2;
 
 /// What a plan needs to know of a fragment beyond its pixel, its depth and its texture coordinate.
@@ -18,6 +19,8 @@ pub struct Needs {
     pub frame: bool,
     /// The share of its pixel that it covers; every pixel that a triangle touches is drawn then.
     pub coverage: bool,
+    /// Which of so many samples of its pixel it covers, in place of whether it covers the centre.
+    pub samples: Option<NonZeroU32>,
 }
 
 impl Needs {
@@ -32,6 +35,7 @@ impl Needs {
             (self.lod, "level of detail"),
             (self.frame, "index of the frame"),
             (self.coverage, "share of the pixel that is covered"),
+            (self.samples.is_some(), "samples that geometry covers"),
         ];
         all.into_iter().filter(|&(needed, _)| needed).map(|(_, name)| name).collect()
     }
@@ -58,6 +62,8 @@ pub struct Fragments {
     pub layer: Vec<u16>,
     /// The share of its pixel that its triangle covers, in (0, 1]; empty unless needed.
     pub coverage: Vec<f64>,
+    /// The samples of its pixel that its triangle covers, a bit each; empty unless needed.
+    pub covered: Vec<u64>,
 }
 
 impl Fragments {
@@ -83,6 +89,7 @@ impl Fragments {
         self.dtdy.clear();
         self.layer.clear();
         self.coverage.clear();
+        self.covered.clear();
         let ColumnBuffer { position, dpdx, dpdy } = &mut self.footprint;
         [position, dpdx, dpdy].into_iter().flatten().for_each(Vec::clear);
     }

@@ -1,5 +1,6 @@
 //! What is measured of pictures.
 
+use super::file::{DepthBuffer, Region};
 use super::picture::Picture;
 use super::run::{Frame, LayerSums};
 use super::study::Shot;
@@ -17,6 +18,7 @@ use std::collections::{BTreeMap, VecDeque};
 /// | `coverage_ratio` | that, as a share of the truth's |
 /// | `rmse`, `rmse_coverage` | root mean square error of colour and of coverage to the truth, mean over frames |
 /// | `rmse_of_mean` | that of the coverage of the mean over frames |
+/// | `coverage.NAME`, `coverage_ratio.NAME` | the first two within a region of the scene |
 /// | `ssim` | structural similarity of luminance to the truth, mean over frames |
 /// | `flips` | change of coverage a frame, per pixel that a surface touches in both |
 /// | `changed` | change of coverage a frame over the whole image, as a share of the mean coverage |
@@ -28,6 +30,8 @@ use std::collections::{BTreeMap, VecDeque};
 /// | `open` | share of the rays that are open, over all frames |
 /// | `open_flips` | change of that share a frame, per pixel with a ray in both |
 /// | `open_run_ratio` | `run_ratio` of open and occluded pixels |
+/// | `depth.phantoms` | share of the depths of a smaller buffer at which there is nothing |
+/// | `depth.occlusion` | mean share of the neighbours of a pixel that are nearer than it |
 /// | `run_x`, `run_y` | mean length of runs of equal visibility along the rows and the columns, in pixels |
 /// | `run_ratio` | `run_y / run_x` |
 ///
@@ -49,6 +53,8 @@ pub struct Asked {
 #[derive(Clone, Debug, Default)]
 pub struct Measured {
     shots: u32,
+    regions: Vec<Region>,
+    depth: Option<DepthBuffer>,
     sums: Sums,
     mean_of_first: Option<Picture>,
 }
@@ -57,6 +63,9 @@ pub struct Measured {
 struct Sums {
     frames: f64,
     coverage: f64,
+    /// Coverage of each region, and that of the truth.
+    regions: Vec<[f64; 2]>,
+    depth: BTreeMap<&'static str, f64>,
     truth: Option<TruthSums>,
     before: Option<(Vec<f32>, Vec<bool>)>,
     /// Change of coverage, and pixels that were compared.
@@ -97,9 +106,15 @@ struct TruthSums {
 }
 
 impl Measured {
+    /// Prepares to measure regions and the depth buffer beside the whole picture.
+    #[must_use]
+    pub fn new(regions: &[Region], depth: Option<&DepthBuffer>) -> Self {
+        Self { regions: regions.to_vec(), depth: depth.cloned(), ..Self::default() }
+    }
+
     /// Begins a shot.
     pub fn begin(&mut self) {
-        self.sums = Sums::default();
+        self.sums = Sums { regions: vec![[0.0; 2]; self.regions.len()], ..Sums::default() };
         self.shots += 1;
     }
 
@@ -141,6 +156,15 @@ impl Measured {
             }
             sums.latest.push_back(picture.coverage.clone());
             sums.touched.clone_from(&frame.touched);
+        }
+        for (region, [found, right]) in self.regions.iter().zip(&mut sums.regions) {
+            *found += within(region, picture);
+            *right += truth.map_or(0.0, |truth| within(region, truth));
+        }
+        if let (Some(table), Some(depth)) = (&self.depth, &frame.depth) {
+            for (name, value) in depth.measures(table) {
+                *sums.depth.entry(name).or_default() += value;
+            }
         }
         if asked.layers {
             let layers = sums.layers.get_or_insert_default();
@@ -192,6 +216,12 @@ impl Measured {
             return;
         }
         put("coverage", sums.coverage / frames);
+        for (region, [found, right]) in self.regions.iter().zip(&sums.regions) {
+            put(&format!("coverage.{}", region.name), found / frames);
+            if sums.truth.is_some() {
+                put(&format!("coverage_ratio.{}", region.name), found / right.max(f64::MIN_POSITIVE));
+            }
+        }
         if sums.flips[1] > 0.0 {
             put("flips", flips);
         }
@@ -214,6 +244,9 @@ impl Measured {
             }
             let [x, y] = open.runs.map(|[differ, all]| all / f64::max(differ, 1.0));
             put("open_run_ratio", y / x.max(f64::MIN_POSITIVE));
+        }
+        for (name, sum) in &sums.depth {
+            put(name, sum / frames);
         }
         if let Some(layers) = sums.layers {
             put("layer_correlation", layers.covariance / layers.deviation.max(f64::MIN_POSITIVE));
@@ -255,6 +288,17 @@ fn add_around(gaze: &Gaze, picture: &Picture, truth: &Picture, sums: &mut [[f64;
         sums[outside][0] += f64::from(shown);
         sums[outside][1] += f64::from(right);
     }
+}
+
+/// The mean coverage of the pixels of a region.
+fn within(region: &Region, picture: &Picture) -> f64 {
+    let [columns, rows] = [0, 1].map(|axis| {
+        let end = region.corner[axis].saturating_add(region.size[axis]).min(picture.size[axis]);
+        region.corner[axis]..end
+    });
+    let of_row = |y: u32| columns.clone().map(move |x| y * picture.size[0] + x);
+    let shares: Vec<f64> = rows.flat_map(of_row).map(|at| f64::from(picture.coverage[at as usize])).collect();
+    shares.iter().sum::<f64>() / shares.len().max(1) as f64
 }
 
 fn root_mean_square(a: &[f32], b: &[f32]) -> f64 {
@@ -363,6 +407,19 @@ mod tests {
         assert!((metrics["ghosting"] - 0.25).abs() < 1e-6);
         // The first of nine frames counts no more.
         assert!((metrics["swing"] - 0.1).abs() < 1e-6);
+    }
+
+    #[test]
+    fn regions_are_measured_alone() {
+        let region = |name: &str, corner, size| Region { name: name.to_owned(), corner, size };
+        let regions = [region("left", [0, 3], [1, 9]), region("beyond", [2, 8], [40, u32::MAX])];
+        let (mut measured, mut metrics) = (Measured::new(&regions, None), Metrics::default());
+        measured.begin();
+        measured.add(&frame(stripes(1)), Some(&frame(stripes(2)).picture), Asked::default());
+        measured.end(&SHOT, &mut metrics);
+        assert_eq!((metrics["coverage.left"], metrics["coverage_ratio.left"]), (1.0, 1.0));
+        assert_eq!((metrics["coverage.beyond"], metrics["coverage"]), (0.5, 0.5));
+        assert_eq!(metrics["coverage_ratio.beyond"], 7.0 / 6.0);
     }
 
     #[test]

@@ -16,6 +16,7 @@
 //! | [`occlusion`] | rays, and what is in their way |
 //! | [`sub_pixel`] | thresholds of what covers a part of its pixel |
 //! | [`study`], [`metrics`], [`expect`] | all takes of a scene, what is measured, what must come out |
+//! | [`depth`] | the depth buffer, and a smaller one made of it |
 //! | [`picture`] | images side by side, differences, sequences |
 //! | [`gallery`] | the figures of the sources as scenes |
 //!
@@ -24,6 +25,7 @@
 pub mod adjust;
 pub mod auto;
 pub mod cost;
+pub mod depth;
 pub mod effects;
 pub mod expect;
 pub mod file;

@@ -13,7 +13,7 @@ use super::rasterise::{Screen, TILE};
 use super::run;
 use super::stage::{Stage, hashes};
 use super::study::{Shot, shots};
-use super::tables::{Chi, Pattern, Space};
+use super::tables::{Chi, Door, Pattern, Space};
 use super::texture::Texture;
 use crate::technique::foveated::Gaze;
 use crate::technique::jitter::camera_jitter;
@@ -50,7 +50,7 @@ pub struct Plan {
     pub space: Space,
     /// Places along each side of a pixel at which fragments are made.
     pub places: u32,
-    /// Tests a fragment.
+    /// Samples of a pixel.
     pub samples: u32,
     /// What it needs of textures.
     pub textures: TextureNeeds,
@@ -85,8 +85,10 @@ pub fn plan(effects: &Effects) -> Plan {
         (None, texels) => texels.as_ref().map(|texels| Scaling::Texels(texels.radius)),
     };
     let gaze = effects.foveated.as_ref().map(super::tables::Foveated::gaze);
+    let multisamples = effects.multisampling.as_ref().map(|multisampling| multisampling.samples);
     let mut stages = vec![Stage::Rasterise(places)];
     stages.extend(effects.conservative.as_ref().map(|_| Stage::Touch));
+    stages.extend(multisamples.map(Stage::Multisample));
     stages.extend(gaze.map(Stage::Foveate));
     stages.push(Stage::SampleAlpha(coarsest));
     stages.extend(scaling.map(Stage::Scaled));
@@ -96,6 +98,9 @@ pub fn plan(effects: &Effects) -> Plan {
         stages.push(Stage::BlendAll);
     } else {
         stages.extend(source(effects, space));
+    }
+    if let Some(stipple) = &effects.stipple {
+        stages.push(Stage::Stipple(stipple.density));
     }
     if let Some(independent) = &effects.independent {
         stages.push(Stage::Independent(independent.frames, independent.by));
@@ -139,15 +144,16 @@ pub fn plan(effects: &Effects) -> Plan {
     if let Some(average) = &effects.average {
         stages.push(Stage::Average(average.frames));
     }
-    let decorrelated = coverage.is_some_and(|coverage| coverage.pattern == Pattern::Decorrelated);
+    let permuted = coverage.is_some_and(|c| matches!(c.pattern, Pattern::Decorrelated | Pattern::Random));
     Plan {
         name: effects.name.clone().unwrap_or_else(|| name(effects)),
         needs: Needs {
             footprint: stages.iter().any(|stage| matches!(stage, Stage::Hash(..) | Stage::Occlude(_))),
             texture_derivatives: coarsest != Some(0.0) || effects.fade_in.is_some(),
-            layer: decorrelated,
+            layer: permuted || stages.contains(&Stage::ScreenDoor(Door::Hashed)),
             lod: effects.fade_in.is_some(),
-            frame: [effects.temporal.is_some(), effects.stochastic.is_some(), decorrelated]
+            samples: multisamples,
+            frame: [effects.temporal.is_some(), effects.stochastic.is_some(), permuted]
                 .into_iter()
                 .chain([effects.independent.is_some(), effects.jitter.is_some()])
                 .chain(effects.occlusion.map(|occlusion| occlusion.chi == Chi::Random))
@@ -164,7 +170,7 @@ pub fn plan(effects: &Effects) -> Plan {
         stages,
         space,
         places,
-        samples: coverage.map_or(1, |coverage| coverage.samples.get()),
+        samples: coverage.map(|coverage| coverage.samples).or(multisamples).map_or(1, NonZeroU32::get),
     }
 }
 
@@ -195,6 +201,9 @@ fn source(effects: &Effects, space: Space) -> Option<Stage> {
     if effects.stochastic.is_some() {
         return Some(Stage::Stochastic);
     }
+    if let Some(door) = &effects.screen_door {
+        return Some(Stage::ScreenDoor(door.mask));
+    }
     if effects.alpha_to_coverage.is_some() {
         return None;
     }
@@ -224,13 +233,15 @@ impl Plan {
                 Stage::SampleAlpha(_) => cost.texels += texels,
                 Stage::Hash(model, _) => cost.hashes += fragments * hashes(model),
                 Stage::Stochastic => cost.randoms += fragments,
+                // Two for the order of the tile's strata, one within the pixel's own.
+                Stage::ScreenDoor(Door::Hashed) => cost.hashes += 3 * fragments,
                 Stage::Coverage(samples, pattern) => {
                     thresholds = fragments * u64::from(samples.get());
                     match pattern {
-                        Pattern::Decorrelated => cost.hashes += fragments,
+                        Pattern::Decorrelated | Pattern::Random | Pattern::Pixel => cost.hashes += fragments,
                         // The first of them is the one of the source.
                         Pattern::Independent => cost.randoms += thresholds - fragments,
-                        Pattern::Regular | Pattern::Jittered => {}
+                        Pattern::Regular | Pattern::Hardware | Pattern::Jittered => {}
                     }
                 }
                 Stage::Test => cost.tests += thresholds,
@@ -273,8 +284,8 @@ impl Plan {
 
     /// Counts the fragments of a frame and the texels that they read.
     fn census(&self, scene: &Scene, textures: &[Texture], shot: &Shot, frame: u32) -> (u64, u64) {
-        let Needs { texture_derivatives, coverage, .. } = self.needs;
-        let needs = Needs { texture_derivatives, coverage, ..Needs::default() };
+        let Needs { texture_derivatives, coverage, samples, .. } = self.needs;
+        let needs = Needs { texture_derivatives, coverage, samples, ..Needs::default() };
         let camera = shot.camera(scene, frame, self.places);
         let screen =
             Screen::new(&scene.mesh, &camera, f64::from(frame), self.offset(frame), Space::Object, needs);

@@ -1,8 +1,9 @@
 //! The threshold of a plan as shader text.
 
 use super::plan::Plan;
+use super::run::DOOR_SEED;
 use super::stage::Stage;
-use super::tables::{FadeIn, Pattern};
+use super::tables::{Door, FadeIn, Pattern};
 use crate::shader::assemble::{self, InvalidOption, ShaderOptions, assemble};
 use crate::shader::beside;
 use crate::threshold::batch::Model;
@@ -12,7 +13,8 @@ use core::num::NonZeroU32;
 
 impl Plan {
     /// Returns the threshold of the plan as WGSL, made of the chunks of its stages only, and after it the functions that the
-    /// stages call beside it; `None` where no shader computes the threshold, as for independent draws at every sample.
+    /// stages call beside it; `None` where no shader computes the threshold, as for independent draws at every sample or for
+    /// what hardware does by itself.
     ///
     /// # Errors
     ///
@@ -40,15 +42,29 @@ impl Plan {
                 Stage::Stratify(frames, order) => {
                     options.stratify = Some(assemble::Stratify { frames: short(frames), order: *order });
                 }
-                Stage::Coverage(_, Pattern::Independent) => return Ok(None),
+                Stage::ScreenDoor(door) => {
+                    options.source = assemble::Source::ScreenDoor(match door {
+                        Door::Fixed => assemble::ScreenDoor::Fixed,
+                        Door::Random => assemble::ScreenDoor::RandomMask(DOOR_SEED),
+                        Door::Hashed => assemble::ScreenDoor::Randomised,
+                    });
+                }
+                Stage::Stipple(density) => options.source = assemble::Source::Stipple(*density),
+                // Hardware does its own without a shader.
+                Stage::Coverage(_, Pattern::Independent | Pattern::Hardware) => return Ok(None),
                 Stage::Coverage(samples, Pattern::Regular) => {
                     options.source = assemble::Source::Regular(short(samples));
                 }
+                Stage::Coverage(samples, Pattern::Pixel) => {
+                    options.source = assemble::Source::PixelMask(short(samples));
+                }
                 Stage::Coverage(samples, pattern) => {
-                    options.coverage = Some(assemble::Coverage {
-                        samples: short(samples),
-                        decorrelated: *pattern == Pattern::Decorrelated,
-                    });
+                    let strata = match pattern {
+                        Pattern::Decorrelated => assemble::Strata::Decorrelated,
+                        Pattern::Random => assemble::Strata::Shuffled,
+                        _ => assemble::Strata::InOrder,
+                    };
+                    options.coverage = Some(assemble::Coverage { samples: short(samples), strata });
                 }
                 Stage::FadeIn(fade_in) if !is_traditional(fade_in.authored) => return Ok(None),
                 Stage::FadeIn(fade_in) => {

@@ -102,6 +102,9 @@ fn draw(table: &TextureTable, seed: u64, folder: &Path) -> Result<Level, ImageEr
     if let Some(constant) = &table.constant {
         return Ok(constant.draw(size));
     }
+    if let Some(ramp) = &table.ramp {
+        return Ok(ramp.draw(size, opaque));
+    }
     match &table.image {
         Some(image) => image_file::read(&folder.join(&image.file), image.alpha),
         // A checked file has one of the tables.

@@ -1,4 +1,4 @@
-//! Alpha maps that need no file: leaves, wires, hair, checkerboards.
+//! Alpha maps that need no file: leaves, wires, hair, checkerboards, ramps.
 
 use super::texture::Level;
 use glam::{DVec2, dvec2};
@@ -61,6 +61,11 @@ pub struct Constant {
 fn veil() -> [f64; 3] {
     [0.2, 0.3, 0.5]
 }
+
+/// Alpha that rises evenly from 0 at the left edge to 1 at the right.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Ramp {}
 
 fn leaf_count() -> u32 {
     14
@@ -187,6 +192,18 @@ impl Constant {
     }
 }
 
+impl Ramp {
+    /// Draws the ramp; `opaque` is the alpha at the right edge.
+    #[must_use]
+    pub fn draw(&self, size: u32, opaque: f64) -> Level {
+        let flat = Constant { alpha: opaque, colour: veil() }.draw(size);
+        let share = |at: usize| (at as u32 % size) as f32 + 0.5;
+        let alpha =
+            flat.alpha.iter().enumerate().map(|(at, alpha)| alpha * share(at) / size as f32).collect();
+        Level { alpha, ..flat }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -198,6 +215,8 @@ mod tests {
         assert!((wire.mean_alpha() - 0.36).abs() < 0.02, "{}", wire.mean_alpha());
         assert_eq!(Checkerboard { squares: 8 }.draw(64, 1.0).mean_alpha(), 0.5);
         assert!((Constant { alpha: 0.3, colour: veil() }.draw(4).mean_alpha() - 0.3).abs() < 1e-7);
+        let ramp = Ramp {}.draw(16, 0.8);
+        assert!((ramp.mean_alpha() - 0.4).abs() < 1e-6 && ramp.alpha[0] < 0.03 && ramp.alpha[31] > 0.77);
         let leaves = Leaves { count: 14, length: 0.36 }.draw(64, 1.0, 0);
         assert!((0.2..0.5).contains(&leaves.mean_alpha()), "{}", leaves.mean_alpha());
         let hair = Hair { strands: 24, thickness: 0.02 }.draw(64, 1.0, 0);

@@ -1,15 +1,18 @@
 //! Triangles to fragments: perspective-correct attributes with analytic screen derivatives, tile by tile.
 //!
 //! Which pixels a triangle covers is decided on corners that are rounded to 1/256 of a pixel, as hardware does, so that
-//! triangles which share an edge share no pixel and leave none out. Attributes are those of the exact corners. Where the
-//! covered share of pixels is needed, every pixel that an exact triangle touches is drawn, with the attributes in the middle
-//! of what is covered.
+//! triangles which share an edge share no pixel and leave none out. Attributes are those of the exact corners. With several
+//! samples the same is decided for each of them; attributes are those of the centre, or of a covered sample where the centre
+//! is outside ("centroid"). Where the covered share of
+//! pixels is needed, every pixel that an exact triangle touches is drawn, with the attributes in the middle of what is covered.
 
 use super::fragments::{Fragments, Needs};
 use super::mesh::{Mesh, Triangle};
 use super::tables::Space;
 use crate::scene::Camera;
 use crate::technique::conservative::covered;
+use crate::technique::multisampling::sample_place;
+use core::num::NonZeroU32;
 use glam::{DVec2, DVec3, dvec2, dvec3, vec2};
 use rayon::prelude::*;
 
@@ -37,6 +40,15 @@ struct Projected {
     triangle: u32,
 }
 
+/// What a triangle covers of a pixel.
+struct Covered {
+    share: f64,
+    /// A bit for each sample.
+    samples: u64,
+    /// The place that is shaded, in pixels.
+    place: DVec2,
+}
+
 /// Which pixels a triangle covers.
 #[derive(Clone, Debug)]
 enum Shape {
@@ -60,6 +72,8 @@ pub struct Screen {
     size: [u32; 2],
     space: Space,
     needs: Needs,
+    /// Where the samples of a pixel are, from its upper left corner; the centre if nobody needs them.
+    places: Vec<DVec2>,
     projected: Vec<Projected>,
     tiles: Vec<Vec<u32>>,
     /// Colour factor of each triangle of the mesh, by the angle between its normal and the light.
@@ -79,7 +93,7 @@ impl Screen {
                 let polygon = cut_near(corners, near);
                 let fan = (2..polygon.len()).filter_map(|last| {
                     let corners = [polygon[0], polygon[last - 1], polygon[last]];
-                    project(&corners, camera, offset, index as u32, needs.coverage)
+                    project(&corners, camera, offset, index as u32, needs)
                 });
                 (fan.collect(), shade)
             })
@@ -96,7 +110,9 @@ impl Screen {
                 }
             }
         }
-        Self { size, space, needs, projected, tiles, shade }
+        let samples = needs.samples.unwrap_or(NonZeroU32::MIN);
+        let places = (0..samples.get()).map(|i| DVec2::from(sample_place(i, samples)) + 0.5).collect();
+        Self { size, space, needs, places, projected, tiles, shade }
     }
 
     /// Returns the number of tiles.
@@ -131,11 +147,14 @@ impl Screen {
             });
             for y in rows {
                 for x in columns.clone() {
-                    if let Some((share, place)) = triangle.covers([x, y]) {
+                    if let Some(covered) = triangle.covers([x, y], &self.places) {
                         let pixel = (y - corner[1]) * TILE + (x - corner[0]);
-                        self.add(triangle, pixel as u16, place.extend(1.0), out);
+                        self.add(triangle, pixel as u16, covered.place.extend(1.0), out);
                         if self.needs.coverage {
-                            out.coverage.push(share);
+                            out.coverage.push(covered.share);
+                        }
+                        if self.needs.samples.is_some() {
+                            out.covered.push(covered.samples);
                         }
                     }
                 }
@@ -193,20 +212,27 @@ impl Screen {
 }
 
 impl Projected {
-    /// The share of a pixel that counts as covered and the place in it that is shaded; `None` for a pixel without fragment.
-    fn covers(&self, [x, y]: [u32; 2]) -> Option<(f64, DVec2)> {
+    /// What it covers of a pixel that has its samples at `places`; `None` for a pixel without fragment.
+    fn covers(&self, [x, y]: [u32; 2], places: &[DVec2]) -> Option<Covered> {
         let corner = dvec2(f64::from(x), f64::from(y));
         match &self.shape {
             Shape::Edges(edges) => {
-                let centre = corner + 0.5;
-                let inside = edges.iter().all(|(edge, inclusive)| {
-                    let inside = edge.dot(centre.extend(1.0));
-                    inside > 0.0 || (inside == 0.0 && *inclusive)
-                });
-                inside.then_some((1.0, centre))
+                let is_inside = |place: DVec2| {
+                    edges.iter().all(|(edge, inclusive)| {
+                        let inside = edge.dot((corner + place).extend(1.0));
+                        inside > 0.0 || (inside == 0.0 && *inclusive)
+                    })
+                };
+                let inside = (0_u32..).zip(places).filter(|(_, place)| is_inside(**place));
+                let samples = inside.fold(0_u64, |mask, (i, _)| mask | 1 << i);
+                let first = places.get(samples.trailing_zeros() as usize)?;
+                let centre = DVec2::splat(0.5);
+                let place = corner + if is_inside(centre) { centre } else { *first };
+                Some(Covered { share: 1.0, samples, place })
             }
             Shape::Outline(corners) => {
-                covered(corners, [x as i32, y as i32]).map(|(share, middle)| (share, corner + middle))
+                let (share, middle) = covered(corners, [x as i32, y as i32])?;
+                Some(Covered { share, samples: u64::MAX, place: corner + middle })
             }
         }
     }
@@ -281,7 +307,7 @@ fn project(
     camera: &Camera,
     offset: DVec2,
     triangle: u32,
-    touches: bool,
+    needs: Needs,
 ) -> Option<Projected> {
     let pixels = 1.0 / camera.direction_dx.length();
     let rows = 1.0 / camera.direction_dy.length();
@@ -292,7 +318,8 @@ fn project(
     };
     let area = |[a, b, c]: [DVec2; 3]| edge(a, b).dot(c.extend(1.0));
     let mut exact = corners.each_ref().map(place);
-    let mut rounded = if touches { exact } else { exact.map(|corner| (corner * 256.0).round() / 256.0) };
+    let mut rounded =
+        if needs.coverage { exact } else { exact.map(|corner| (corner * 256.0).round() / 256.0) };
     if area(rounded) < 0.0 {
         corners.swap(1, 2);
         exact.swap(1, 2);
@@ -306,8 +333,8 @@ fn project(
         let low = rounded.iter().map(|corner| corner[axis]).fold(f64::INFINITY, f64::min);
         let high = rounded.iter().map(|corner| corner[axis]).fold(f64::NEG_INFINITY, f64::max);
         let last = f64::from(camera.resolution[axis]) - 1.0;
-        // Pixels that may be touched, or whose centre may be inside.
-        let [first, end] = if touches {
+        // Pixels that may be touched or have a sample inside, or whose centre may be inside.
+        let [first, end] = if needs.coverage || needs.samples.is_some() {
             [low.floor(), high.ceil() - 1.0]
         } else {
             [(low - 0.5).ceil(), (high - 0.5).floor()]
@@ -329,7 +356,7 @@ fn project(
     };
     Some(Projected {
         bounds: bounds.map(|ends| ends.map(|pixel| pixel as u32)),
-        shape: if touches { Shape::Outline(exact) } else { Shape::Edges(edges) },
+        shape: if needs.coverage { Shape::Outline(exact) } else { Shape::Edges(edges) },
         inverse_depth: plane(&|_| 1.0),
         texcoord: [plane(&|corner| corner.texcoord.x), plane(&|corner| corner.texcoord.y)],
         place: [
@@ -355,6 +382,7 @@ mod tests {
         lod: true,
         frame: true,
         coverage: false,
+        samples: None,
     };
 
     fn tilted() -> (Camera, Rectangle, Mesh) {
@@ -482,6 +510,40 @@ mod tests {
             partial += u32::from(area > 0.0 && area < 1.0 - 1e-12);
         }
         assert!(partial > 50, "{partial}");
+    }
+
+    #[test]
+    fn triangles_that_share_edges_share_no_sample_and_cover_what_finer_pixels_do() {
+        let (camera, _, mesh) = tilted();
+        let n = NonZeroU32::new(16).unwrap();
+        let needs = Needs { samples: Some(n), ..Needs::default() };
+        let (mut fragments, mut fine) = (Fragments::default(), Fragments::default());
+        let screen = Screen::new(&mesh, &camera, 0.0, DVec2::ZERO, Space::Object, needs);
+        let centre = Screen::new(&mesh, &camera, 0.0, DVec2::ZERO, Space::Object, Needs::default());
+        let (mut samples, mut whole, mut partial) = (0_u32, 0, 0);
+        for tile in 0..screen.tiles() {
+            screen.fragments(tile, &mut fragments);
+            let mut pixels = vec![0_u64; (TILE * TILE) as usize];
+            for (&pixel, &covered) in fragments.pixel.iter().zip(&fragments.covered) {
+                assert_eq!(pixels[usize::from(pixel)] & covered, 0);
+                pixels[usize::from(pixel)] |= covered;
+            }
+            samples += pixels.iter().map(|mask| mask.count_ones()).sum::<u32>();
+            partial += pixels.iter().filter(|&&mask| mask != 0 && mask != 0xffff).count();
+            centre.fragments(tile, &mut fine);
+            whole += fine.len();
+        }
+        // The area of the card, by samples and by centres; its outline is 200 pixels long.
+        assert!((f64::from(samples) / 16.0 - whole as f64).abs() < 20.0, "{samples} {whole}");
+        assert!(partial > 50, "{partial}");
+        // The first of the two has a corner at each place of the outline: one sample is the centre.
+        let one = Needs { samples: NonZeroU32::new(1), ..Needs::default() };
+        let one = Screen::new(&mesh, &camera, 0.0, DVec2::ZERO, Space::Object, one);
+        for tile in 0..one.tiles() {
+            one.fragments(tile, &mut fragments);
+            centre.fragments(tile, &mut fine);
+            assert_eq!((&fragments.pixel, &fragments.depth), (&fine.pixel, &fine.depth));
+        }
     }
 
     #[test]

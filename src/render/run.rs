@@ -1,6 +1,7 @@
 //! Carries a plan out: one frame, tile by tile, stage by stage over the columns of a tile, and counts what it does.
 
 use super::cost::Cost;
+use super::depth::Depth;
 use super::fragments::Fragments;
 use super::occlusion::{self, Occluders};
 use super::picture::{LEAF, Picture, SKY};
@@ -10,18 +11,20 @@ use super::rasterise::{Screen, TILE};
 use super::stage::{Stage, hashes};
 use super::study::Shot;
 use super::sub_pixel;
-use super::tables::{Apart, FadeIn, Occlusion, Pattern};
+use super::tables::{Apart, Door, FadeIn, Occlusion, Pattern};
 use super::texture::{Access, Texture};
 use crate::scene::Camera;
 use crate::technique::blend_towards::blend_towards;
 use crate::technique::independent::{ByFrame, by_offset};
+use crate::technique::mask::{hardware_threshold, pixel_value, shuffled, turned};
 use crate::technique::order::Order;
-use crate::technique::premultiplied;
 use crate::technique::remedies::test_then_blend::{Layer, naive, test_then_blend};
+use crate::technique::stipple::{self, Density};
+use crate::technique::{premultiplied, screen_door};
 use crate::threshold::batch::{Batch, Model};
 use crate::threshold::coverage::{decorrelated, jittered, regular};
 use crate::threshold::fade_in::{anisotropy, blend, clamp_last};
-use crate::threshold::fixed::passes;
+use crate::threshold::fixed::{FIXED_THRESHOLD, passes};
 use crate::threshold::footprint::Footprint;
 use crate::threshold::hash::{Hash, HashKind, integer::pcg4d, open_lattice};
 use crate::threshold::hashed::HashedAlpha;
@@ -46,6 +49,8 @@ pub struct Frame {
     pub layers: LayerSums,
     /// For each pixel the number of its rays and of those that are open; empty without occlusion.
     pub rays: Vec<[u16; 2]>,
+    /// The depth buffer, at the first sample of each pixel and before anything is averaged; `None` unless asked for.
+    pub depth: Option<Depth>,
 }
 
 /// Sums over the pixels in which two layers or more have an alpha between 0 and 1, the first two by distance.
@@ -56,6 +61,9 @@ pub struct LayerSums {
     /// Of the products of the standard deviations that a fair test would have.
     pub deviation: f64,
 }
+
+/// Which of the 16! masks a random screen door has.
+pub(super) const DOOR_SEED: u32 = 0;
 
 const PIXELS: usize = (TILE * TILE) as usize;
 const NONE: u32 = u32::MAX;
@@ -68,6 +76,8 @@ struct TileResult {
     cost: Cost,
     layers: LayerSums,
     rays: Vec<[u16; 2]>,
+    /// Of no length unless asked for.
+    depth: Vec<f32>,
 }
 
 /// Columns beside those of the fragments, kept from tile to tile for their room.
@@ -101,6 +111,11 @@ pub fn frame(scene: &Scene, textures: &[Texture], plan: &Plan, shot: &Shot, inde
     let mut cost = Cost { frames: 1, passes, ..Cost::default() };
     let mut layers = LayerSums::default();
     let mut rays = vec![[0; 2]; if draw.occluders.is_some() { touched.len() } else { 0 }];
+    let mut depth = scene
+        .file
+        .depth
+        .as_ref()
+        .map(|_| Depth { size: camera.resolution, values: vec![f32::INFINITY; touched.len()] });
     for (tile, result) in tiles.iter().enumerate() {
         cost += result.cost;
         layers.covariance += result.layers.covariance;
@@ -114,6 +129,9 @@ pub fn frame(scene: &Scene, textures: &[Texture], plan: &Plan, shot: &Shot, inde
             touched[row(to)].copy_from_slice(&result.touched[row(from)]);
             if !rays.is_empty() {
                 rays[row(to)].copy_from_slice(&result.rays[row(from)]);
+            }
+            if let Some(depth) = &mut depth {
+                depth.values[row(to)].copy_from_slice(&result.depth[row(from)]);
             }
         }
     }
@@ -135,7 +153,7 @@ pub fn frame(scene: &Scene, textures: &[Texture], plan: &Plan, shot: &Shot, inde
             }
         }
     }
-    Frame { picture, touched, cost, layers, rays }
+    Frame { picture, touched, cost, layers, rays, depth }
 }
 
 /// What all tiles of a frame share.
@@ -163,6 +181,7 @@ impl Draw<'_> {
             cost: Cost::default(),
             layers: LayerSums::default(),
             rays: Vec::new(),
+            depth: if self.scene.file.depth.is_some() { vec![f32::INFINITY; PIXELS] } else { Vec::new() },
         };
         if self.occluders.is_some() {
             result.rays = vec![[0; 2]; PIXELS];
@@ -193,6 +212,13 @@ impl Draw<'_> {
                     work.threshold.extend(draws);
                     result.cost.randoms += work.fragments.len() as u64;
                 }
+                Stage::ScreenDoor(door) => {
+                    self.screen_door(work, tile, *door);
+                    if *door == Door::Hashed {
+                        result.cost.hashes += 3 * work.threshold.len() as u64;
+                    }
+                }
+                Stage::Stipple(density) => self.stipple(work, tile, *density),
                 Stage::LevelThreshold => {
                     work.threshold.clear();
                     let triangles = work.fragments.triangle.iter().zip(&work.access);
@@ -214,7 +240,7 @@ impl Draw<'_> {
                 }
                 Stage::Clamp => work.threshold.iter_mut().for_each(|t| *t = clamp_last(*t)),
                 Stage::Test => {
-                    test(work, self.plan.samples as usize);
+                    test(work, self.plan.samples);
                     result.cost.tests += work.threshold.len() as u64;
                 }
                 Stage::Occlude(table) => self.occlude(work, tile, table, &mut rng, &mut result),
@@ -232,9 +258,10 @@ impl Draw<'_> {
                     self.blend(work, naive, &mut result);
                     result.cost.blends += work.fragments.len() as u64;
                 }
-                // The first is done beforehand, the second by the hash, the third when fragments are made, the fourth when
-                // texels are read, the others on whole pictures.
-                Stage::Scaled(_) | Stage::Independent(..) | Stage::Touch | Stage::Foveate(_) => {}
+                // The first is done beforehand, the second by the hash, the third and the fourth when fragments are made, the
+                // fifth when texels are read, the others on whole pictures.
+                Stage::Scaled(_) | Stage::Independent(..) => {}
+                Stage::Touch | Stage::Multisample(_) | Stage::Foveate(_) => {}
                 Stage::Downsample(_) | Stage::History(_) | Stage::Average(_) => {}
             }
         }
@@ -292,39 +319,76 @@ impl Draw<'_> {
         rng: &mut Xoshiro256PlusPlus,
         cost: &mut Cost,
     ) {
-        let n = samples.get();
-        let fragments = work.fragments.len();
-        let chi = core::mem::take(&mut work.threshold);
-        if pattern == Pattern::Regular {
-            work.threshold.extend((0..fragments).flat_map(|_| (0..n).map(|i| regular::<f32>(i, samples))));
-        }
-        for (at, chi) in chi.into_iter().enumerate() {
+        let sample = 0..samples.get();
+        let source = core::mem::take(&mut work.threshold);
+        let out = &mut work.threshold;
+        for at in 0..work.fragments.len() {
+            // Patterns without noise have no source.
+            let chi = source.get(at).copied().unwrap_or(FIXED_THRESHOLD as f32);
             match pattern {
-                // Done above: it has no noise to start from.
-                Pattern::Regular => {}
-                Pattern::Jittered => work.threshold.extend((0..n).map(|i| jittered(chi, i, samples))),
-                Pattern::Decorrelated => {
-                    let xi = self.pair(&work.fragments, tile, at);
+                Pattern::Regular => out.extend(sample.clone().map(|i| regular::<f32>(i, samples))),
+                Pattern::Hardware => {
+                    out.extend(sample.clone().map(|i| hardware_threshold::<f32>(i, samples)))
+                }
+                Pattern::Pixel => {
+                    let chi = pixel_value::<f32>(self.place(&work.fragments, tile, at));
                     cost.hashes += 1;
-                    let strata = (0..n).map(|i| jittered(chi, decorrelated(xi, i, samples), samples));
-                    work.threshold.extend(strata);
+                    out.extend(sample.clone().map(|i| turned(chi, i, samples)));
+                }
+                Pattern::Jittered => out.extend(sample.clone().map(|i| jittered(chi, i, samples))),
+                Pattern::Decorrelated => {
+                    let [_, first, second, _] = self.words(&work.fragments, tile, at);
+                    let xi = [open_lattice::<f32>(first), open_lattice(second)];
+                    cost.hashes += 1;
+                    out.extend(sample.clone().map(|i| jittered(chi, decorrelated(xi, i, samples), samples)));
+                }
+                Pattern::Random => {
+                    let [_, _, _, word] = self.words(&work.fragments, tile, at);
+                    cost.hashes += 1;
+                    out.extend(sample.clone().map(|i| jittered(chi, shuffled(word, i, samples), samples)));
                 }
                 Pattern::Independent => {
-                    work.threshold.push(chi);
-                    work.threshold.extend((1..n).map(|_| stochastic::threshold::<f32>(rng)));
-                    cost.randoms += u64::from(n - 1);
+                    out.push(chi);
+                    out.extend((1..sample.end).map(|_| stochastic::threshold::<f32>(rng)));
+                    cost.randoms += u64::from(sample.end - 1);
                 }
             }
         }
     }
 
-    /// Two numbers in (0, 1) that belong to one fragment of one frame: the twin of the shader's `fragment_pair`.
-    fn pair(&self, fragments: &Fragments, tile: usize, at: usize) -> [f32; 2] {
+    fn screen_door(&self, work: &mut Work, tile: usize, door: Door) {
+        const SIDE: u32 = screen_door::TILE;
+        // One mask for the whole screen.
+        let mask: Vec<f32> =
+            (0..SIDE * SIDE).map(|i| screen_door::random_mask([i % SIDE, i / SIDE], DOOR_SEED)).collect();
+        work.threshold.clear();
+        work.threshold.extend((0..work.fragments.len()).map(|at| {
+            let [x, y] = self.place(&work.fragments, tile, at);
+            match door {
+                Door::Fixed => screen_door::fixed([x, y]),
+                Door::Random => mask[(y % SIDE * SIDE + x % SIDE) as usize],
+                Door::Hashed => screen_door::randomised([x, y], u32::from(work.fragments.layer[at])),
+            }
+        }));
+    }
+
+    fn stipple(&self, work: &mut Work, tile: usize, density: Density) {
+        for (at, threshold) in work.threshold.iter_mut().enumerate() {
+            *threshold = stipple::threshold(density, self.place(&work.fragments, tile, at), *threshold);
+        }
+    }
+
+    /// The pixel of a fragment: its column and row.
+    fn place(&self, fragments: &Fragments, tile: usize, at: usize) -> [u32; 2] {
         let ([left, top], _) = self.screen.tile(tile);
         let pixel = u32::from(fragments.pixel[at]);
-        let place = [left + pixel % TILE, top + pixel / TILE];
-        let words = pcg4d([place[0], place[1], self.frame, u32::from(fragments.layer[at])]);
-        [open_lattice(words[1]), open_lattice(words[2])]
+        [left + pixel % TILE, top + pixel / TILE]
+    }
+
+    /// Four words that belong to one fragment of one frame: the twin of the shader's `fragment_words`.
+    fn words(&self, fragments: &Fragments, tile: usize, at: usize) -> [u32; 4] {
+        let [x, y] = self.place(fragments, tile, at);
+        pcg4d([x, y, self.frame, u32::from(fragments.layer[at])])
     }
 
     fn fade(&self, work: &mut Work, table: &FadeIn) {
@@ -388,6 +452,9 @@ impl Draw<'_> {
                     *held = at as u32;
                 }
             }
+        }
+        for (depth, held) in result.depth.iter_mut().zip(nearest.chunks_exact(samples)) {
+            *depth = work.fragments.depth.get(held[0] as usize).copied().unwrap_or(f32::INFINITY);
         }
         let share = 1.0 / samples as f32;
         for (pixel, held) in nearest.chunks_exact(samples).enumerate() {
@@ -464,11 +531,18 @@ fn with_hash<H: Hash<f32>>(model: &Model, footprint: &Footprint<f32>, of: impl F
     }
 }
 
-fn test(work: &mut Work, samples: usize) {
+/// Tests each fragment against its thresholds: one a sample, or one for all of them.
+fn test(work: &mut Work, samples: u32) {
     work.kept.clear();
-    for (&alpha, thresholds) in work.alpha.iter().zip(work.threshold.chunks_exact(samples)) {
-        let kept = thresholds.iter().enumerate().map(|(i, &t)| u64::from(passes(alpha, t)) << i);
-        work.kept.push(kept.sum());
+    let all = u64::MAX >> (u64::BITS - samples);
+    let each = work.threshold.len() / work.fragments.len();
+    for (at, (&alpha, thresholds)) in work.alpha.iter().zip(work.threshold.chunks_exact(each)).enumerate() {
+        let kept = if let [one] = thresholds {
+            if passes(alpha, *one) { all } else { 0 }
+        } else {
+            thresholds.iter().enumerate().map(|(i, &t)| u64::from(passes(alpha, t)) << i).sum()
+        };
+        work.kept.push(kept & work.fragments.covered.get(at).unwrap_or(&all));
     }
 }
 
@@ -493,9 +567,15 @@ fn layer_sums(work: &Work, samples: u32) -> LayerSums {
         if alphas.iter().any(|alpha| !(0.01..=0.99).contains(alpha)) {
             continue;
         }
-        // Over the samples of the pixel, so that what two layers show at one sample counts.
+        // Over the samples of the pixel that both cover, so that what two layers show at one sample counts.
         let [a, b] = pair.map(|at| work.kept[at as usize]);
-        let share = |mask: u64| f64::from(mask.count_ones()) / f64::from(samples);
+        let all = u64::MAX >> (u64::BITS - samples);
+        let both =
+            pair.iter().fold(all, |all, &at| all & work.fragments.covered.get(at as usize).unwrap_or(&all));
+        if both == 0 {
+            continue;
+        }
+        let share = |mask: u64| f64::from((mask & both).count_ones()) / f64::from(both.count_ones());
         let [p, q] = alphas;
         sums.covariance += share(a & b) - p * share(b) - q * share(a) + p * q;
         sums.deviation += (p * (1.0 - p) * q * (1.0 - q)).sqrt();

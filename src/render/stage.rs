@@ -1,9 +1,10 @@
 //! The stages of which plans are made.
 
 use super::adjust::Scaling;
-use super::tables::{Apart, Chi, FadeIn, History, Occlusion, Pattern, Space};
+use super::tables::{Apart, Chi, Door, FadeIn, History, Occlusion, Pattern, Space};
 use crate::technique::foveated::Gaze;
 use crate::technique::order::Order;
+use crate::technique::stipple::Density;
 use crate::threshold::batch::Model;
 use crate::threshold::robust::Join;
 use crate::threshold::two_scale::Variant;
@@ -18,6 +19,8 @@ pub enum Stage {
     Touch,
     /// Coarser levels away from a point of the image.
     Foveate(Gaze),
+    /// Geometry at so many places of each pixel.
+    Multisample(NonZeroU32),
     /// Filtered alpha, from no level coarser than the given one if any.
     SampleAlpha(Option<f32>),
     /// Alphas as they were scaled beforehand.
@@ -26,6 +29,10 @@ pub enum Stage {
     Fixed(f32),
     /// The threshold of the level that is read.
     LevelThreshold,
+    /// The threshold of the pixel's place in a tile.
+    ScreenDoor(Door),
+    /// A threshold that only opaque fragments reach, where the stipple has a hole.
+    Stipple(Density),
     /// A fresh threshold a fragment, or so many.
     Stochastic,
     /// A hashed threshold.
@@ -71,6 +78,7 @@ impl Stage {
             Self::Rasterise(1) | Self::SampleAlpha(None) | Self::Clamp | Self::Test => None,
             Self::Resolve { divide: false } => None,
             Self::Rasterise(_) | Self::Downsample(_) => Some("supersampling"),
+            Self::Multisample(_) => Some("multisampling"),
             Self::SampleAlpha(Some(level)) if *level <= 0.0 => Some("finest_level"),
             Self::SampleAlpha(Some(_)) => Some("limited_level"),
             Self::Touch | Self::Correct => Some("conservative"),
@@ -80,6 +88,8 @@ impl Stage {
             Self::Fixed(0.5) => None,
             Self::Fixed(_) => Some("fixed"),
             Self::Stochastic => Some("stochastic"),
+            Self::ScreenDoor(_) => Some("screen_door"),
+            Self::Stipple(_) => Some("stipple"),
             Self::Hash(Model::Hashed(_) | Model::BeforeCdf(_), _) => Some("hashed"),
             Self::Hash(Model::Robust(_), _) => Some("robust"),
             Self::Stratify(..) => Some("temporal"),
@@ -122,10 +132,18 @@ impl Stage {
                 )
             }
             Self::Correct => "correct: thresholds over the share of the pixel, those above 1 too".to_owned(),
+            Self::Multisample(samples) => {
+                format!("multisample: geometry at {samples} places of each pixel, alpha at one")
+            }
             Self::SampleAlpha(None) => "sample alpha: at the level of the footprint".to_owned(),
             Self::SampleAlpha(Some(level)) => format!("sample alpha: no coarser than level {level}"),
             Self::Fixed(threshold) => format!("threshold: {threshold} for all"),
             Self::Stochastic => "threshold: drawn anew in every fragment and frame".to_owned(),
+            Self::ScreenDoor(door) => {
+                format!("threshold: that of the pixel in a {} mask of 4 x 4", door.name())
+            }
+            Self::Stipple(Density::High) => "stipple: a hole in one pixel of 2 x 2".to_owned(),
+            Self::Stipple(Density::Low) => "stipple: a hole in three pixels of 2 x 2".to_owned(),
             Self::Hash(Model::Hashed(h) | Model::BeforeCdf(h), space) => format!(
                 "hash: {} listing, {} hash, noise of {} px, {} coordinates",
                 h.variant,
@@ -145,7 +163,7 @@ impl Stage {
                 format!("temporal: stratum of {frames} frames, {} order", order.name())
             }
             Self::Coverage(samples, pattern) => {
-                format!("coverage: {samples} samples a pixel, {} strata", pattern.name())
+                format!("coverage: {samples} samples a pixel, {} pattern", pattern.name())
             }
             Self::FadeIn(fade_in) => {
                 let scaled = if fade_in.anisotropy { ", scaled by anisotropy" } else { "" };

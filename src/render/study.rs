@@ -69,11 +69,14 @@ pub struct Take {
     pub metrics: Metrics,
     /// The mean of the first shot's frames.
     pub mean: Picture,
-    /// The shown frame of every shot with all motion: the scene as it is, and from each other distance. It is the first, or
-    /// the last where some take mixes frames.
+    /// The index of the frame that is shown: the first, or the last if a take of the scene averages frames.
+    pub frame: u32,
+    /// That frame of every shot with all motion: of the scene as it is, and from each other distance.
     pub shown: Vec<Picture>,
-    /// The frame beside the shown one, where there is one.
+    /// The frame beside that of the first shot, where there is one.
     pub beside: Option<Picture>,
+    /// The smaller depth buffer of the first frame, if the scene asks for it.
+    pub depth: Option<RgbImage>,
     /// The first shot, frame by frame.
     pub sequence: Vec<RgbImage>,
     /// Time that its frames took, in seconds.
@@ -132,8 +135,10 @@ pub fn study(scene: &Scene, progress: &mut dyn FnMut(u64, u64)) -> Study {
     let mut done = 0;
     let mut truths: Option<Vec<Picture>> = scene.file.truth.as_ref().map(|_| Vec::new());
     let mut truth_cost = Cost::default();
-    let mut takes: Vec<(Take, Measured)> =
-        plans.into_iter().map(|plan| (Take::new(plan), Measured::default())).collect();
+    let mut takes: Vec<(Take, Measured)> = plans
+        .into_iter()
+        .map(|plan| (Take::new(plan, shown), Measured::new(&scene.file.region, scene.file.depth.as_ref())))
+        .collect();
     for shot in &shots {
         let mut histories = vec![(None, VecDeque::new()); takes.len()];
         takes.iter_mut().for_each(|(_, measured)| measured.begin());
@@ -146,15 +151,7 @@ pub fn study(scene: &Scene, progress: &mut dyn FnMut(u64, u64)) -> Study {
                 picture
             });
             for ((take, measured), history) in takes.iter_mut().zip(&mut histories) {
-                let place = if index == shown {
-                    Place::Shown
-                } else if index.abs_diff(shown) == 1 {
-                    Place::Beside
-                } else {
-                    Place::Other
-                };
-                let at = (index, place);
-                take.draw(scene, find(take.plan.textures), shot, at, history, measured, truth.as_ref());
+                take.draw(scene, find(take.plan.textures), shot, index, history, measured, truth.as_ref());
                 done += 1;
                 progress(done, total);
             }
@@ -175,7 +172,8 @@ pub fn study(scene: &Scene, progress: &mut dyn FnMut(u64, u64)) -> Study {
 
 impl Study {
     /// Returns the picture of the scene: the shown frames of the takes side by side with the truth last, a row for each shot
-    /// that differs in distance; enlarged insets; and their differences to the frames beside them, inverted.
+    /// that differs in distance; enlarged insets; smaller depth buffers; and the differences of the shown frames to those
+    /// beside them, inverted.
     #[must_use]
     pub fn sheet(&self, inset: Option<&Inset>) -> RgbImage {
         let truths = self.truth.as_deref().unwrap_or_default();
@@ -189,6 +187,10 @@ impl Study {
             let large = first.iter().map(|image| picture::enlarge(image, inset)).collect();
             rows.insert(1, large);
         }
+        let depths: Vec<RgbImage> = self.takes.iter().filter_map(|take| take.depth.clone()).collect();
+        if !depths.is_empty() {
+            rows.push(depths);
+        }
         let differences: Vec<RgbImage> = self.takes.iter().filter_map(Take::difference).collect();
         if !differences.is_empty() {
             rows.push(differences);
@@ -197,22 +199,17 @@ impl Study {
     }
 }
 
-/// Which frame of the picture of a scene is being drawn.
-enum Place {
-    Shown,
-    Beside,
-    Other,
-}
-
 impl Take {
-    fn new(plan: Plan) -> Self {
+    fn new(plan: Plan, frame: u32) -> Self {
         Self {
             plan,
             cost: Cost::default(),
             metrics: Metrics::default(),
             mean: Picture::default(),
+            frame,
             shown: Vec::new(),
             beside: None,
+            depth: None,
             sequence: Vec::new(),
             seconds: 0.0,
         }
@@ -224,7 +221,7 @@ impl Take {
         scene: &Scene,
         textures: &[Texture],
         shot: &Shot,
-        (index, place): (u32, Place),
+        index: u32,
         (average, last): &mut (Option<Picture>, VecDeque<Picture>),
         measured: &mut Measured,
         truth: Option<&Picture>,
@@ -255,13 +252,17 @@ impl Take {
         self.seconds += begun.elapsed().as_secs_f64();
         self.cost += frame.cost;
         let is_first_shot = measured.is_first_shot();
+        if let (None, Some(table), Some(depth)) = (&self.depth, &scene.file.depth, &frame.depth) {
+            let ratio = table.ratio.get();
+            self.depth = Some(depth.smaller(ratio).picture(ratio));
+        }
         if is_first_shot {
             self.sequence.push(frame.picture.to_rgb());
         }
-        match place {
-            Place::Shown if shot.cause == Cause::All => self.shown.push(frame.picture.clone()),
-            Place::Beside if is_first_shot => self.beside = Some(frame.picture.clone()),
-            _ => {}
+        if index == self.frame && shot.cause == Cause::All {
+            self.shown.push(frame.picture.clone());
+        } else if index.abs_diff(self.frame) == 1 && is_first_shot {
+            self.beside = Some(frame.picture.clone());
         }
         let asked =
             Asked { layers: scene.file.layers.is_some(), ghosts: self.plan.mixes(), gaze: self.plan.gaze };

@@ -2,6 +2,7 @@
 
 use crate::technique::foveated::Gaze;
 use crate::technique::order::Order;
+use crate::technique::stipple::Density;
 use crate::threshold::cdf::CdfForm;
 use crate::threshold::hash::HashKind;
 use crate::threshold::robust::Join;
@@ -110,7 +111,7 @@ pub struct History {
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Fixed {
-    /// That threshold, in [0, 1].
+    /// That threshold, in (0, 1].
     #[serde(default = "half")]
     pub threshold: f32,
 }
@@ -199,6 +200,14 @@ pub struct Temporal {
     pub order: Order,
 }
 
+/// Several places of a pixel, at which geometry is tested.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Multisampling {
+    /// Number of places, at most 64; those of `alpha_to_coverage` if that is there.
+    pub samples: NonZeroU32,
+}
+
 /// Several tests in a pixel.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -221,6 +230,12 @@ pub enum Pattern {
     Decorrelated,
     /// Independent draws, as stochastic transparency has them (§10).
     Independent,
+    /// `floor(n alpha)` samples, always the same ones, as the paper has it of hardware (§3, §8); needs no hash.
+    Hardware,
+    /// One jitter for all strata, which are shuffled for each fragment: random sets of samples (§3, Enderton et al. 2010).
+    Random,
+    /// Strata turned by one value of the pixel, the same for all layers (Humus 2009); needs no threshold.
+    Pixel,
 }
 
 impl Pattern {
@@ -232,8 +247,60 @@ impl Pattern {
             Self::Jittered => "jittered",
             Self::Decorrelated => "decorrelated",
             Self::Independent => "independent",
+            Self::Hardware => "hardware",
+            Self::Random => "random",
+            Self::Pixel => "pixel",
         }
     }
+}
+
+/// A mask over tiles of pixels.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ScreenDoor {
+    /// Which one.
+    pub mask: Door,
+}
+
+/// The masks of a screen door of 4 x 4 pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Door {
+    /// The ordered dither (§3).
+    Fixed,
+    /// One random order for all tiles and layers (§3, Mulder et al. 1998).
+    Random,
+    /// Strata permuted and jittered for each tile and layer (§8.1).
+    Hashed,
+}
+
+impl Door {
+    /// The name by which a user asks for it.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Fixed => "fixed",
+            Self::Random => "random",
+            Self::Hashed => "hashed",
+        }
+    }
+}
+
+/// Holes of one pixel, or of three.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Stipple {
+    /// How much of a surface is kept.
+    #[serde(with = "DensityByName")]
+    pub density: Density,
+}
+
+/// The names by which a user asks for a density.
+#[derive(Deserialize)]
+#[serde(remote = "Density", rename_all = "kebab-case")]
+enum DensityByName {
+    High,
+    Low,
 }
 
 /// Noise that fades in.

@@ -5,6 +5,7 @@
 //! Rust computes in `f64`, and the sine hash are stated apart where they are tested.
 
 use crate::technique::order::Order;
+use crate::technique::stipple::Density;
 use crate::threshold::cdf::CdfForm;
 use crate::threshold::hash::HashKind;
 use crate::threshold::robust::Join;
@@ -28,8 +29,12 @@ pub enum Source {
     Fixed,
     /// The fixed dither of so many samples (Eq. 7).
     Regular(NonZeroU16),
+    /// Regular thresholds of so many samples, turned by one value of the pixel (Humus 2009).
+    PixelMask(NonZeroU16),
     /// Strata over tiles of pixels (§3, §8.1).
     ScreenDoor(ScreenDoor),
+    /// The traditional alpha test with holes of one pixel, or of three (Ols 2009).
+    Stipple(Density),
 }
 
 /// Which threshold a pixel of a tile of 4 x 4 has, see [`screen_door`](crate::technique::screen_door).
@@ -37,6 +42,8 @@ pub enum Source {
 pub enum ScreenDoor {
     /// The ordered dither, the same in every tile and for every layer.
     Fixed,
+    /// An order that this seed draws, the same in every tile and for every layer.
+    RandomMask(u32),
     /// Strata that are permuted and jittered for each tile and layer.
     Randomised,
 }
@@ -64,8 +71,19 @@ pub struct Stratify {
 pub struct Coverage {
     /// Number of samples in a pixel.
     pub samples: NonZeroU16,
-    /// Whether each layer visits the strata in an order of its own (Eq. 9).
-    pub decorrelated: bool,
+    /// In which order the samples have the strata.
+    pub strata: Strata,
+}
+
+/// The order of the strata of a pixel's samples.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Strata {
+    /// The same in every pixel and layer (Eq. 8).
+    InOrder,
+    /// An offset and a step for each pixel, frame and layer (Eq. 9).
+    Decorrelated,
+    /// A permutation for each pixel, frame and layer, any of them (§3, Enderton et al. 2010).
+    Shuffled,
 }
 
 /// What the text is to do. Stages act in the order of the fields from `source` on; what is `None` leaves no trace.
@@ -123,18 +141,20 @@ impl ShaderOptions {
     #[must_use]
     pub fn parameters(&self) -> Vec<Parameter> {
         let footprint = matches!(self.source, Source::Listing(_) | Source::Robust(_));
-        let decorrelated = self.coverage.is_some_and(|coverage| coverage.decorrelated);
-        let fresh = self.source == Source::Stochastic || decorrelated;
-        let door = matches!(self.source, Source::ScreenDoor(_));
+        let permuted = self.coverage.is_some_and(|coverage| coverage.strata != Strata::InOrder);
+        let fresh = self.source == Source::Stochastic || permuted;
+        let by_pixel =
+            matches!(self.source, Source::ScreenDoor(_) | Source::PixelMask(_) | Source::Stipple(_));
         let random_door = self.source == Source::ScreenDoor(ScreenDoor::Randomised);
-        let sampled = self.coverage.is_some() || matches!(self.source, Source::Regular(_));
+        let sampled =
+            self.coverage.is_some() || matches!(self.source, Source::Regular(_) | Source::PixelMask(_));
         let anisotropy = self.fade_in.is_some_and(|fade_in| fade_in.anisotropy);
         let all = [
             (footprint, POSITION),
             (footprint, DPDX),
             (footprint, DPDY),
             (footprint && self.hash_scale.is_none(), HASH_SCALE),
-            (fresh || door, PIXEL),
+            (fresh || by_pixel, PIXEL),
             (fresh || self.stratify.is_some(), FRAME),
             (fresh || random_door, LAYER),
             (sampled, SAMPLE_INDEX),
@@ -248,15 +268,23 @@ impl Text {
         if let Some(Stratify { frames, order }) = options.stratify {
             stages.push(self.stratified(literal, order, frames));
         }
-        if let Some(Coverage { samples, decorrelated }) = options.coverage {
+        if let Some(Coverage { samples, strata }) = options.coverage {
             self.stable_or_literal(literal, JITTERED);
-            let mut sample = "sample_index".to_owned();
-            if decorrelated {
-                add!(self, "integral_word", "pcg_4d", "fragment_words", "open_lattice", "fragment_pair");
-                self.stable_or_literal(literal, DECORRELATED);
-                sample =
-                    format!("decorrelated(fragment_pair(pixel, frame, layer), sample_index, {samples}u)");
+            if strata != Strata::InOrder {
+                add!(self, "integral_word", "pcg_4d", "fragment_words");
             }
+            let sample = match strata {
+                Strata::InOrder => "sample_index".to_owned(),
+                Strata::Decorrelated => {
+                    add!(self, "open_lattice", "fragment_pair");
+                    self.stable_or_literal(literal, DECORRELATED);
+                    format!("decorrelated(fragment_pair(pixel, frame, layer), sample_index, {samples}u)")
+                }
+                Strata::Shuffled => {
+                    add!(self, "pcg", "mask/shuffled");
+                    format!("shuffled(fragment_words(pixel, frame, layer).w, sample_index, {samples}u)")
+                }
+            };
             stages.push(format!("jittered(value, {sample}, {samples}u)"));
         }
         if let Some(FadeIn { full_noise_lod, anisotropy }) = options.fade_in {
@@ -343,10 +371,23 @@ impl Text {
                 add!(self, "coverage_regular", "screen_door/ordered");
                 "regular(ordered(vec2<u32>(pixel)), 16u)".to_owned()
             }
+            Source::ScreenDoor(ScreenDoor::RandomMask(seed)) => {
+                add!(self, "coverage_regular", "rotate", "murmur", "murmur_words", "screen_door/random_mask");
+                format!("regular(random_mask(vec2<u32>(pixel), {seed}u), 16u)")
+            }
             Source::ScreenDoor(ScreenDoor::Randomised) => {
                 add!(self, "clamp_last", "coverage_jittered", "coverage_decorrelated", "rotate", "murmur");
-                add!(self, "open_lattice", "screen_door/ordered", "screen_door/randomised");
+                add!(self, "murmur_words", "open_lattice", "screen_door/ordered", "screen_door/randomised");
                 "randomised(vec2<u32>(pixel), layer)".to_owned()
+            }
+            Source::PixelMask(samples) => {
+                add!(self, "clamp_last", "rotate", "murmur", "murmur_words", "open_lattice", "mask/pixel");
+                format!("turned(pixel_value(vec2<u32>(pixel)), sample_index, {samples}u)")
+            }
+            Source::Stipple(density) => {
+                add!(self, "stipple");
+                let [kept, apart] = if density == Density::High { ["0.5", "1.0"] } else { ["1.0", "0.5"] };
+                format!("select({kept}, {apart}, is_apart(vec2<u32>(pixel)))")
             }
         }
     }
@@ -420,7 +461,7 @@ impl Text {
             HashKind::Xxhash32 => add!(self, "rotate", "hash/xxhash32"),
             HashKind::Pcg3d => add!(self, "hash/pcg3d"),
             HashKind::Pcg4d => add!(self, "pcg_4d", "hash/pcg4d"),
-            HashKind::PcgNested => add!(self, "hash/pcg_nested"),
+            HashKind::PcgNested => add!(self, "pcg", "hash/pcg_nested"),
         }
     }
 

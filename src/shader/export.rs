@@ -5,8 +5,9 @@
 //! survive in every language.
 
 use super::assemble::{
-    Coverage, FadeIn, InvalidOption, ScreenDoor, ShaderOptions, Source, Stratify, assemble,
+    Coverage, FadeIn, InvalidOption, ScreenDoor, ShaderOptions, Source, Strata, Stratify, assemble,
 };
+use crate::technique::stipple::Density;
 use crate::threshold::hash::{UnknownName, by_name};
 use crate::threshold::two_scale::Variant;
 use core::fmt;
@@ -236,6 +237,16 @@ fn described(options: &ShaderOptions) -> Vec<String> {
         Source::Fixed => parts.push("the traditional alpha test (section 1)".to_owned()),
         Source::Regular(samples) => parts.push(format!("the fixed dither of {samples} samples (Eq. 7)")),
         Source::ScreenDoor(ScreenDoor::Fixed) => parts.push("the ordered dither of 4 x 4 pixels".to_owned()),
+        Source::ScreenDoor(ScreenDoor::RandomMask(seed)) => {
+            parts.push(format!("a random mask of 4 x 4 pixels (section 3, seed {seed})"));
+        }
+        Source::PixelMask(samples) => {
+            parts.push(format!("{samples} samples by a value of the pixel (Humus 2009)"));
+        }
+        Source::Stipple(density) => {
+            let density = if density == Density::High { "high" } else { "low" };
+            parts.push(format!("the traditional alpha test with a stipple of {density} density (Ols 2009)"));
+        }
         Source::ScreenDoor(ScreenDoor::Randomised) => {
             parts.push("strata over tiles of 4 x 4 pixels (section 8.1)".to_owned());
         }
@@ -247,8 +258,12 @@ fn described(options: &ShaderOptions) -> Vec<String> {
     if let Some(Stratify { frames, order }) = options.stratify {
         parts.push(format!("stratified over {frames} frames, order {} (Eq. 6)", order.name()));
     }
-    if let Some(Coverage { samples, decorrelated }) = options.coverage {
-        let equation = if decorrelated { "Eqs. 8 and 9" } else { "Eq. 8" };
+    if let Some(Coverage { samples, strata }) = options.coverage {
+        let equation = match strata {
+            Strata::InOrder => "Eq. 8",
+            Strata::Decorrelated => "Eqs. 8 and 9",
+            Strata::Shuffled => "Eq. 8, shuffled",
+        };
         parts.push(format!("jittered over {samples} samples ({equation})"));
     }
     if let Some(FadeIn { full_noise_lod, anisotropy }) = options.fade_in {

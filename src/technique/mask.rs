@@ -37,7 +37,14 @@ pub fn fixed_dither<R: Real>(alpha: R, n: NonZeroU32) -> Mask {
 /// Half a sample too few in the mean.
 #[must_use]
 pub fn hardware<R: Real>(alpha: R, n: NonZeroU32) -> Mask {
-    by_threshold(alpha, n, |i| R::from_f64(f64::from(i + 1)) / R::from_f64(f64::from(n.get())))
+    by_threshold(alpha, n, |i| hardware_threshold(i, n))
+}
+
+/// Returns the threshold of sample `i` of `n` that [`hardware`] comes to, `(i + 1) / n`, in (0, 1]; `i` counts modulo
+/// `n`.
+#[must_use]
+pub fn hardware_threshold<R: Real>(i: u32, n: NonZeroU32) -> R {
+    R::from_f64(f64::from(i % n + 1)) / R::from_f64(f64::from(n.get()))
 }
 
 /// Returns the mask of jittered thresholds, `(i + chi_i) / n`, clamped: Eq. 8. `chi(i)` is in [0, 1], one value for
@@ -67,25 +74,26 @@ pub fn permuted_literal<R: Real>(alpha: R, n: NonZeroU32, xi: [R; 2], chi: impl 
     by_threshold(alpha, n, |i| jittered_literal(chi(i), decorrelated_literal(xi, i, n), n))
 }
 
-/// Returns a random mask: `floor(n alpha + xi)` samples, every set of that size as likely as any other (Enderton et al.
-/// 2010, whom §3 cites for random permutations of patterns).
+/// Returns a random mask: `floor(n alpha + 1 - chi)` samples, every set of that size as likely as any other (Enderton et
+/// al. 2010, whom §3 cites for random permutations of patterns).
 ///
-/// `xi` in [0, 1) rounds the count so that its mean is `n alpha`; `word` chooses the set and must differ between
-/// layers and fragments.
+/// `chi` in [0, 1] rounds the count so that its mean is `n alpha`; `word` chooses the set and must differ between
+/// layers and fragments. These are jittered thresholds whose strata are [`shuffled`].
 #[must_use]
-pub fn random_set(alpha: f64, n: NonZeroU32, xi: f64, word: u32) -> Mask {
-    let samples = n.get().min(Mask::BITS);
-    let wanted = (f64::from(samples) * alpha + xi).floor().clamp(0.0, f64::from(samples)) as u32;
-    let wanted = if alpha > 0.0 { wanted } else { 0 };
-    let (mut mask, mut state) = (0, word);
-    // Floyd's choice of a set: as many draws as members.
-    for last in samples - wanted..samples {
-        state = pcg(state);
-        let drawn = (u64::from(state) * u64::from(last + 1)) >> 32;
-        let chosen = 1 << drawn;
-        mask |= if mask & chosen == 0 { chosen } else { 1 << last };
-    }
-    mask
+pub fn random_set<R: Real>(alpha: R, n: NonZeroU32, chi: R, word: u32) -> Mask {
+    by_threshold(alpha, n, |i| jittered(chi, shuffled(word, i, n), n))
+}
+
+/// Returns the stratum of sample `i` of `n` in the permutation that `word` draws, every one of them as likely as any
+/// other: the rank of the sample's own hash among those of all. `i` counts modulo `n`.
+///
+/// The work grows with `n`. Not in the paper, which names the permutations and not how to draw them.
+#[must_use]
+pub fn shuffled(word: u32, i: u32, n: NonZeroU32) -> u32 {
+    let hash = |sample: u32| pcg(word.wrapping_add(sample));
+    let own = hash(i % n);
+    // No two are equal: the hash is a bijection.
+    (0..n.get()).filter(|&other| hash(other) < own).count() as u32
 }
 
 /// Returns the mask of one pseudo-random value of the pixel: sample i is covered where alpha reaches
@@ -95,9 +103,21 @@ pub fn random_set(alpha: f64, n: NonZeroU32, xi: f64, word: u32) -> Mask {
 /// share it, and with it their samples.
 #[must_use]
 pub fn by_pixel<R: Real>(alpha: R, n: NonZeroU32, pixel: [u32; 2]) -> Mask {
-    let chi = open_lattice::<R>(murmur3([pixel[0], pixel[1], 0, 0]));
-    let size = R::from_f64(f64::from(n.get()));
-    by_threshold(alpha, n, |i| wrap(chi + R::from_f64(f64::from(i)) / size))
+    let chi = pixel_value(pixel);
+    by_threshold(alpha, n, |i| turned(chi, i, n))
+}
+
+/// Returns the value of a pixel, in (0, 1), given its column and row: the same in every frame and layer (Humus 2009).
+#[must_use]
+pub fn pixel_value<R: Real>(pixel: [u32; 2]) -> R {
+    open_lattice(murmur3([pixel[0], pixel[1], 0, 0]))
+}
+
+/// Returns the threshold of sample `i` of `n` of [`by_pixel`]: `fract(chi + i / n)`, in [2^-24, 1] with a whole sum as 1.
+#[must_use]
+pub fn turned<R: Real>(chi: R, i: u32, n: NonZeroU32) -> R {
+    let share = R::from_f64(f64::from(i % n)) / R::from_f64(f64::from(n.get()));
+    wrap(chi + share)
 }
 
 #[cfg(test)]
@@ -203,7 +223,7 @@ mod tests {
     fn random_sets_are_evenly_drawn() {
         let mut counts = [0_u32; 16];
         for word in 0..6000 {
-            counts[random_set(0.5, n(4), 0.0, murmur3([word, 0, 0, 0])) as usize] += 1;
+            counts[random_set(0.5, n(4), 1.0, murmur3([word, 0, 0, 0])) as usize] += 1;
         }
         for (mask, count) in counts.into_iter().enumerate() {
             if mask.count_ones() == 2 {
@@ -211,6 +231,20 @@ mod tests {
             } else {
                 assert_eq!(count, 0);
             }
+        }
+    }
+
+    /// Every permutation is equally likely: each of the 24 of 4 samples within 5 deviations.
+    #[test]
+    fn permutations_are_evenly_drawn() {
+        let mut counts = std::collections::HashMap::<Vec<u32>, u32>::new();
+        for word in 0..24_000 {
+            let word = murmur3([word, 1, 0, 0]);
+            *counts.entry((0..4).map(|i| shuffled(word, i, n(4))).collect()).or_default() += 1;
+        }
+        assert_eq!(counts.len(), 24);
+        for (order, count) in counts {
+            assert!((f64::from(count) - 1000.0).abs() < 5.0 * 31.0, "{order:?}: {count}");
         }
     }
 

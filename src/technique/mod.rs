@@ -12,6 +12,7 @@ pub mod history;
 pub mod independent;
 pub mod jitter;
 pub mod mask;
+pub mod multisampling;
 pub mod noise_scale;
 pub mod occlusion;
 pub mod order;
@@ -301,6 +302,12 @@ pub const ALL: &[Technique] = &[
     )
     .seen("halo", "premultiplied", "premultiplied")
     .tested("a_halo_appears_without_premultiplied_alpha_only"),
+    technique(
+        "multisampling",
+        "§1, §2, §8",
+        "technique::multisampling",
+        "Edges of geometry are smoothed; edges of alpha, which is read once a pixel, are not.",
+    ),
     technique(
         "alpha-to-coverage",
         "§8, Eq. 7",

@@ -93,7 +93,8 @@ pub fn radical_inverse(index: u32, base: u32) -> f64 {
 }
 
 /// Returns how many of the first `n` indices have a smaller radical inverse to base 2 than `i` has.
-fn radical_rank(i: u32, n: NonZeroU32) -> u32 {
+#[must_use]
+pub fn radical_rank(i: u32, n: NonZeroU32) -> u32 {
     (0..n.get()).map(|other| u32::from(other.reverse_bits() < i.reverse_bits())).sum()
 }
 

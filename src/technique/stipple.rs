@@ -1,5 +1,7 @@
 //! Stippled alpha: one pixel of every 2 x 2 is treated apart, wherever the surface lies (Ols 2009).
 
+use crate::threshold::real::Real;
+
 /// How much of a surface the stipple keeps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Density {
@@ -16,6 +18,15 @@ pub enum Density {
 pub fn keeps(density: Density, [x, y]: [u32; 2]) -> bool {
     let apart = x % 2 == 1 && y % 2 == 1;
     apart == (density == Density::Low)
+}
+
+/// Returns the threshold of a pixel: `kept`, in (0, 1], where the stipple keeps, and 1, which only an opaque fragment
+/// reaches, where it does not.
+///
+/// The source stipples the surfaces that are to look translucent and no others; alpha 1 says here that one is opaque.
+#[must_use]
+pub fn threshold<R: Real>(density: Density, pixel: [u32; 2], kept: R) -> R {
+    if keeps(density, pixel) { kept } else { R::from_f64(1.0) }
 }
 
 /// Returns whether the pseudo-code of the source keeps a pixel, `position` being in pixels: it discards where
@@ -90,6 +101,17 @@ mod tests {
         assert!(!pixels().all(|p| keeps_literal(at(p, 0.5)) == high(p)));
         assert_eq!(kept(|p| keeps_literal(at(p, 0.0))), 0.0);
         assert_eq!(kept(|p| keeps_in_words(at(p, 0.0))), 1.0);
+    }
+
+    #[test]
+    fn opaque_surfaces_have_no_hole_and_absent_ones_never_show() {
+        for density in [Density::High, Density::Low] {
+            for pixel in pixels() {
+                let threshold = threshold(density, pixel, 0.3);
+                assert!(threshold > 0.0 && threshold <= 1.0);
+                assert_eq!(0.7 >= threshold, keeps(density, pixel));
+            }
+        }
     }
 
     /// "It only allows one layer of translucency": the second layer has its holes in the same place.

@@ -3,9 +3,10 @@
 use super::super::input::{self, number, numbers};
 use super::super::{Class, Stage};
 use super::{bounded, isotropic, stable};
-use crate::shader::assemble::{Coverage, FadeIn, ScreenDoor, ShaderOptions, Source, Stratify};
+use crate::shader::assemble::{Coverage, FadeIn, ScreenDoor, ShaderOptions, Source, Strata, Stratify};
 use crate::technique::order::{Order, radical_inverse};
-use crate::technique::screen_door;
+use crate::technique::stipple::{self, Density};
+use crate::technique::{mask, screen_door};
 use crate::threshold::cdf::CdfForm;
 use crate::threshold::robust::Join;
 use crate::threshold::{coverage, fade_in, stratify};
@@ -20,7 +21,7 @@ fn effects(source: Source) -> ShaderOptions {
     ShaderOptions {
         source,
         stratify: Some(Stratify { frames: FRAMES, order }),
-        coverage: Some(Coverage { samples: FRAMES, decorrelated: true }),
+        coverage: Some(Coverage { samples: FRAMES, strata: Strata::Decorrelated }),
         fade_in: Some(FadeIn { full_noise_lod: 6.0, anisotropy: true }),
         ..isotropic()
     }
@@ -32,6 +33,15 @@ fn stable_effects() -> ShaderOptions {
 
 fn literal_effects() -> ShaderOptions {
     effects(Source::Listing(CdfForm::Literal))
+}
+
+fn pixel_mask() -> ShaderOptions {
+    ShaderOptions { source: Source::PixelMask(FRAMES), ..isotropic() }
+}
+
+fn shuffled() -> ShaderOptions {
+    let coverage = Some(Coverage { samples: FRAMES, strata: Strata::Shuffled });
+    ShaderOptions { coverage, ..stable() }
 }
 
 fn ordered_by(order: Order) -> ShaderOptions {
@@ -129,6 +139,36 @@ pub(super) const STAGES: &[Stage] = &[
         "randomised(vec2<u32>(word(0u) >> 4u, word(1u) >> 4u), word(1u))", 2, input::faded,
         |words| screen_door::randomised([words[0] >> 4, words[1] >> 4], words[1]),
         ["2u + (pixel.y", "3u + (pixel.y"]
+    ),
+    number_stage!(
+        "screen door, random mask", bounded(2.5, 0.0, "a quotient: 2.5 ULP"), || door(ScreenDoor::RandomMask(7)),
+        "regular(random_mask(vec2<u32>(word(0u) >> 4u, word(1u) >> 4u), 7u), 16u)", 2, input::faded,
+        |words| screen_door::random_mask([words[0] >> 4, words[1] >> 4], 7),
+        ["if word < own_word", "if word <= own_word"]
+    ),
+    number_stage!(
+        "pixel value", Class::Bits, pixel_mask,
+        "pixel_value(vec2<u32>(word(0u), word(1u)))", 2, input::faded,
+        |words| mask::pixel_value([words[0], words[1]]),
+        ["pixel.x, pixel.y", "pixel.y, pixel.x"]
+    ),
+    number_stage!(
+        "pixel mask", bounded(0.0, 4.0 / 16_777_216.0, "a quotient of 2.5 ULP below 1, and a sum below 2"), pixel_mask,
+        "turned(number(0u), word(1u), word(2u))", 3, input::stratum_off_jumps,
+        |words| mask::turned(number(words, 0), words[1], strata(words, 2)),
+        ["let sum = chi + f32(i % n)", "let sum = chi + f32(i % n + 1u)"]
+    ),
+    number_stage!(
+        "stipple", Class::Bits, || ShaderOptions { source: Source::Stipple(Density::High), ..isotropic() },
+        "select(0.5, 1.0, is_apart(vec2<u32>(word(0u) >> 20u, word(1u) >> 20u)))", 2, input::faded,
+        |words| stipple::threshold(Density::High, [words[0] >> 20, words[1] >> 20], 0.5),
+        ["& 1u", "& 2u"]
+    ),
+    number_stage!(
+        "shuffled", Class::Bits, shuffled,
+        "f32(shuffled(word(0u), word(1u), word(2u)))", 3, input::stratum,
+        |words| mask::shuffled(words[0], words[1], strata(words, 2)) as f32,
+        ["pcg(word + other) <", "pcg(word + other) <="]
     ),
     number_stage!(
         "regular", bounded(2.5, 0.0, "a quotient: 2.5 ULP"),
