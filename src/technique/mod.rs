@@ -321,7 +321,9 @@ pub const ALL: &[Technique] = &[
         "§3, §8",
         "technique::mask",
         "floor(n alpha) samples in a fixed pattern.",
-    ),
+    )
+    .seen("multisample", "as hardware", "alpha_to_coverage")
+    .tested("a_single_layer_covers_alpha_but_for_what_rounding_takes"),
     technique(
         "jittered-alpha-to-coverage",
         "§8, Eq. 8",
@@ -343,37 +345,49 @@ pub const ALL: &[Technique] = &[
         "§3 (Enderton et al. 2010)",
         "technique::mask",
         "Random sets of samples; layers multiply.",
-    ),
+    )
+    .seen("layers", "hashed, random", "alpha_to_coverage")
+    .tested("random_sets_are_evenly_drawn"),
     technique(
         "pixel-masks",
         "Humus 2009",
         "technique::mask",
         "A pseudo-random value of the pixel breaks up the repetitive dither of hardware.",
-    ),
+    )
+    .seen("pixel-masks", "by pixel", "alpha_to_coverage")
+    .tested("pixels_get_patterns_of_their_own"),
     technique(
         "screen-door",
         "§3, §8.1",
         "technique::screen_door",
         "Samples lie in several pixels; layers and tiles repeat.",
-    ),
+    )
+    .seen("screen-door", "fixed mask", "screen_door")
+    .tested("screen_door.masks"),
     technique(
         "random-screen-door",
         "§3 (Mulder et al. 1998)",
         "technique::screen_door",
         "Even a random mask correlates layers.",
-    ),
+    )
+    .seen("screen-door", "random mask", "screen_door")
+    .tested("fixed_and_random_masks_repeat_from_tile_to_tile"),
     technique(
         "hashed-screen-door",
         "§8.1",
         "technique::screen_door",
         "Permuted for each tile and layer, layers multiply.",
-    ),
+    )
+    .seen("screen-door", "hashed masks", "screen_door")
+    .tested("only_tiles_of_their_own_make_layers_multiply"),
     technique(
         "stipple",
         "Ols 2009",
         "technique::stipple",
         "One of four pixels is left out; only one layer of translucency is possible.",
-    ),
+    )
+    .seen("stipple", "high density", "stipple")
+    .tested("stipple.one_layer"),
     technique(
         "conservative",
         "§2, Fig. 4",
