@@ -307,7 +307,9 @@ pub const ALL: &[Technique] = &[
         "§1, §2, §8",
         "technique::multisampling",
         "Edges of geometry are smoothed; edges of alpha, which is read once a pixel, are not.",
-    ),
+    )
+    .seen("multisample", "multisampled test", "multisampling")
+    .tested("triangles_that_share_edges_share_no_sample_and_cover_what_finer_pixels_do"),
     technique(
         "alpha-to-coverage",
         "§8, Eq. 7",
