@@ -211,6 +211,19 @@ fn messages_are_in_the_words_of_the_file() {
             "vec3 vPos;\nfloat other() { return vPos.x; }\nfloat threshold() { return other(); }",
             "own.glsl:1:6: `vPos` has no value: nothing that `threshold` comes to writes it",
         ),
+        (
+            "float f(float x);\nfloat g(float x) { return f(x); }\nfloat f(float x) { return g(x); }
+float threshold(vec3 position) { return f(position.x); }",
+            "functions that call each other in a circle",
+        ),
+        (
+            "#version 450\nfloat threshold(vec3 position) {\n  double d = double(position.x); return float(d); }",
+            "own.glsl:3:3: numbers of 16 or 64 bits are not taken; use 32 bits",
+        ),
+        (
+            "float threshold(vec3 position) { float x = position.x; }",
+            "own.glsl:1:1: `threshold` returns nothing here",
+        ),
         ("#error it needs more\nfloat threshold() { return 1.0; }", "#error it needs more"),
     ] {
         is_said(glsl(text, &options(&[])).unwrap_err(), wanted);

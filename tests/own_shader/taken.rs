@@ -169,6 +169,7 @@ fn a_main_may_do_what_only_older_versions_can() {
 #[test]
 fn inputs_outputs_and_blocks_need_no_numbers() {
     let text = "#version 330
+#line 7 \"chunk\"
 layout(location = 3) uniform vec4 u_tint;
 in vec3 vPos;
 flat in vec2 vUv;
@@ -186,9 +187,9 @@ void main() { first = vec4(vPos, threshold(vPos)); second = texture(u_maps[0], v
     assert_eq!(threshold(&shader, [1.25, 0.0, 0.0]), 0.25);
     let reads_block = text.replace("fract(position.x)", "fract(\n  eye.x)");
     let error = glsl(&reads_block, &options(&[])).unwrap_err();
-    assert!(error.starts_with("own.glsl:8:9: uniform block `Camera`"), "{error}");
+    assert!(error.starts_with("own.glsl:9:9: uniform block `Camera`"), "{error}");
     let wrong = text.replace("fract(position.x)", "fract(positon.x)");
-    assert!(glsl(&wrong, &options(&[])).unwrap_err().starts_with("own.glsl:13:47: `positon`"));
+    assert!(glsl(&wrong, &options(&[])).unwrap_err().starts_with("own.glsl:14:47: `positon`"));
 }
 
 #[test]
@@ -207,6 +208,10 @@ void main() {
     let comes_to = text.replace("fract(position.x)", "screen(position)");
     let error = glsl(&comes_to, &options(&[])).unwrap_err();
     assert!(error.starts_with("own.glsl:4:") && error.contains("in the body of `threshold` only"), "{error}");
+
+    let halves = "enable f16;\nfn other(x: f16) -> f16 { return x; }
+fn threshold(position: vec3<f32>) -> f32 { return fract(position.x); }";
+    assert!(wgsl(halves, &options(&[])).is_ok());
 
     let text = "fn screen(p: vec3<f32>) -> f32 { return length(dpdx(p * 2.0)); }
 fn threshold(position: vec3<f32>) -> f32 { return fract(position.x); }

@@ -8,19 +8,33 @@ use core::ops::Range;
 use naga::front::Typifier;
 use naga::proc::ResolveContext;
 use naga::valid::{
-    CallError, Capabilities, ExpressionError, FunctionError, ModuleInfo, ValidationError, ValidationFlags,
-    Validator,
+    CallError, Capabilities, ExpressionError, FunctionError, ModuleInfo, TypeError, ValidationError,
+    ValidationFlags, Validator,
 };
 use naga::{BinaryOperator, Block, Expression, Function, Handle, Module, Span, Statement, TypeInner};
 
-/// Validates a module.
+/// Validates a module, which may use whatever naga knows.
 ///
 /// # Errors
 ///
 /// What is wrong with it, at the innermost place that naga knows.
 pub(super) fn validate(module: &Module) -> Result<ModuleInfo, Fault> {
-    Validator::new(ValidationFlags::all(), Capabilities::empty()).validate(module).map_err(|error| {
-        if let Some(fault) = wrong_type(module, error.as_inner()) {
+    validate_for(module, Capabilities::all())
+}
+
+/// Validates a module that uses nothing but what every device has.
+///
+/// # Errors
+///
+/// As those of [`validate`].
+pub(super) fn validate_plain(module: &Module) -> Result<ModuleInfo, Fault> {
+    validate_for(module, Capabilities::empty())
+}
+
+fn validate_for(module: &Module, capabilities: Capabilities) -> Result<ModuleInfo, Fault> {
+    Validator::new(ValidationFlags::all(), capabilities).validate(module).map_err(|error| {
+        let known = wrong_type(module, error.as_inner()).or_else(|| circle(module, error.as_inner()));
+        if let Some(fault) = known {
             return fault;
         }
         // The shortest is the innermost.
@@ -47,8 +61,24 @@ pub(super) fn joined(message: &str, rest: impl IntoIterator<Item = String>) -> S
 fn first_words(error: &ValidationError) -> String {
     match error {
         ValidationError::Function { name, .. } => format!("in `{name}`"),
+        ValidationError::Type { source: TypeError::WidthError(_), .. } => {
+            "numbers of 16 or 64 bits are not taken; use 32 bits".to_owned()
+        }
         other => other.to_string(),
     }
+}
+
+/// A function that calls one which is complete only behind it: they call each other.
+fn circle(module: &Module, error: &ValidationError) -> Option<Fault> {
+    let ValidationError::InvalidHandle(_) = error else { return None };
+    module.functions.iter().find_map(|(caller, within)| {
+        let is_ahead = |statement: &Statement| {
+            matches!(*statement, Statement::Call { function, .. } if function.index() >= caller.index())
+        };
+        let at = find(&within.body, &is_ahead)?;
+        let message = "functions that call each other in a circle; no shading language allows that";
+        Some(Fault::new(message).at(Some(at)))
+    })
 }
 
 /// A value of a type that its place does not take.
@@ -62,8 +92,8 @@ fn wrong_type(module: &Module, error: &ValidationError) -> Option<Fault> {
             let declared = expected_ty.map_or("nothing".to_owned(), |ty| described(module, ty));
             let found = expression.map_or("nothing".to_owned(), typed);
             let is_return = |statement: &Statement| matches!(*statement, Statement::Return { value } if value == expression);
-            Fault::new(format!("`{name}` returns {found} here, where {declared} is declared"))
-                .at(find(body, &is_return))
+            let at = find(body, &is_return).or_else(|| module.functions.get_span(*handle).to_range());
+            Fault::new(format!("`{name}` returns {found} here, where {declared} is declared")).at(at)
         }
         FunctionError::InvalidStoreTypes { pointer, value } => {
             let is_store = |statement: &Statement| matches!(*statement, Statement::Store { pointer: to, value: from } if (to, from) == (pointer, value));

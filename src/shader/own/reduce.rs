@@ -2,7 +2,7 @@
 
 use super::error::Fault;
 use super::front::Front;
-use super::invalid::validate;
+use super::invalid::{validate, validate_plain};
 use super::signature::{self, Binding};
 use super::variables::{fill_uniforms, overrides, refuse_resources, refuse_undefined};
 use super::{Options, derivative};
@@ -66,7 +66,7 @@ pub(super) fn reduce(front: Front, options: &Options) -> Result<Reduced, Fault> 
         refuse_undefined(&module, &options.function)?;
     }
     rename_the_rest(&mut module);
-    let info = validate(&module)?;
+    let info = validate_plain(&module)?;
     Ok(Reduced { module, info, function: NAME.to_owned(), bindings })
 }
 
