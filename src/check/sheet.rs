@@ -5,7 +5,7 @@
 
 use super::sample::placement;
 use super::subject::Subject;
-use super::tolerance::{LEAST_AXIS_SHARE, PLACEMENT, SHEET_OCTAVES};
+use super::tolerance::{LEAST_AXIS_SHARE, PLACEMENT, SHEET_OCTAVES, WIDE};
 use crate::scene::Fragment;
 use crate::stats::seed::uniform01;
 use crate::threshold::footprint::Footprint;
@@ -105,7 +105,7 @@ pub struct Start {
 impl Start {
     /// Draws a place in each of the coordinates.
     pub fn draw(rng: &mut Xoshiro256PlusPlus) -> Self {
-        let [object, world, eye] = [(); 3].map(|()| placement(rng));
+        let [object, world, eye] = [(); 3].map(|()| placement(rng) * WIDE);
         let mut pixel = || (uniform01(rng) * SCREEN).floor() + 0.5;
         let pixel = dvec2(pixel(), pixel());
         Self { object, world, eye, pixel, texcoord: dvec2(uniform01(rng), uniform01(rng)) }

@@ -232,7 +232,7 @@ pub const RESONANCE_PAIRS: usize = 1 << 16;
 // Noise as a whole: its size, its spectrum, the variance of coverage.
 
 /// Derivatives of a sheet times its hash scale lie in the octave from this one on: coarse cells of 2^-5 units, a
-/// thousandth of a cell being eighty roundings of an `f32` position within [`PLACEMENT`].
+/// thousandth of a cell being five roundings of an `f32` position within [`WIDE`] times [`PLACEMENT`].
 pub const SHEET_OCTAVES: f64 = -6.0;
 
 /// No object axis of a sheet has less than this share of the largest derivative: twice the share to which the robust
@@ -306,9 +306,9 @@ pub const FLIP_SHIFTS: [f64; 2] = [0.125, 0.6];
 /// Samples at each shift, screen axis and scene: a soft change that is counted as a hard one doubles a share of 0.1.
 pub const FLIP_SAMPLES: usize = 1 << 15;
 
-/// How much further than [`PLACEMENT`] an object is placed where flips are counted, or how much smaller its cells are:
-/// one axis then has 10^5 intervals. The dithered join asks a hash of one interval which octave it takes, so that points
-/// with an interval in common are not independent; an `f32` position keeps a hundredth of a cell.
+/// How much further than [`PLACEMENT`] an object is placed where changes are counted, or how much smaller its cells are:
+/// one axis then has 10^4 intervals or more. The dithered join asks a hash of one interval which octave it takes, so that
+/// points with an interval in common are not independent; an `f32` position keeps a hundredth of a cell.
 pub const WIDE: f64 = 16.0;
 
 /// How much smaller the cells are than those of [`FINEST_VIEW`] where only the view of a point changes: again 10^5

@@ -328,3 +328,34 @@ fn ulps_away(precision: Precision, x: f64, ulps: i32) -> f64 {
         Precision::F64 => f64::from_bits(x.to_bits().wrapping_add_signed(i64::from(ulps))),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::check::specimen::ideal;
+
+    /// The axes of the copula add up, those of an interpolation do not, and one scale has one distance.
+    #[test]
+    fn each_join_may_move_as_far_as_its_slope_allows() {
+        let moved = |join, variant| {
+            let subject = ideal(0, variant, Precision::F64, join);
+            let view = |fraction| Nominal {
+                coarse_scale: [4.0; 3],
+                fine_scale: [8.0; 3],
+                coarse_cell: DVec3::ZERO,
+                fine_cell: DVec3::ZERO,
+                fraction,
+                lerp_factor: 0.0,
+            };
+            allowed(&subject, &view([0.25, 0.5, 0.5]), &view([0.5, 0.5, 0.375])) - rounding(subject.precision)
+        };
+        for (join, variant, slope) in [
+            (Join::Copula, Variant::Isotropic, 0.25 * COPULA_SLOPE),
+            (Join::Copula, Variant::Anisotropic, 0.375 * COPULA_SLOPE_OF_AN_AXIS),
+            (Join::Interpolate, Variant::Isotropic, 0.25 * INTERPOLATION_SLOPE),
+            (Join::Interpolate, Variant::Anisotropic, 0.25 * INTERPOLATION_SLOPE),
+        ] {
+            assert!((moved(join, variant) - slope).abs() < 1.0e-12, "{join} {variant}");
+        }
+    }
+}

@@ -4,10 +4,11 @@
 //! the cells. On a plane of constant z the coordinate z is the same everywhere, up to the rounding of the rasteriser:
 //! where a listing divides by that rounding, or cuts its cells just there, thresholds change from frame to frame.
 //!
-//! Every sample has a camera and a place of its own, so samples are independent; the constant coordinate stays exact.
+//! Every sample has a camera and a place of its own, so samples share no more than a choice of octaves; the constant
+//! coordinate stays exact.
 
 use super::range::describe;
-use super::stability::{self, predicted};
+use super::stability::{self, Changes};
 use super::{Attempt, Claim, Conclusion, Promise, Trial};
 use crate::check::evidence::ComparedShare;
 use crate::check::sample::placement;
@@ -59,9 +60,8 @@ struct Counts {
     invalid: usize,
     /// Valid pixels with another threshold afterwards.
     redrawn: usize,
-    /// Sum of the probabilities of a change at the valid pixels, and of their variances.
-    mean: f64,
-    variance: f64,
+    /// How many of the valid pixels are expected to change.
+    expected: Changes,
     first_invalid: Option<String>,
 }
 
@@ -74,7 +74,7 @@ impl Counts {
         }
         if self.valid > 0 {
             let share = |count: f64| 100.0 * count / self.valid as f64;
-            let (measured, predicted) = (share(self.redrawn as f64), share(self.mean));
+            let (measured, predicted) = (share(self.redrawn as f64), share(self.expected.mean));
             words.push(format!("{measured:.2} % redrawn for {predicted:.2} % predicted"));
         }
         words.join(", ")
@@ -93,8 +93,8 @@ fn trial(claim: &Claim, offsets: &[f64], subject: &Subject<'_>, draw: &Draw) -> 
             n += counts.valid + counts.invalid;
             invalid += counts.invalid;
             if counts.valid > 0 {
-                let test =
-                    poisson_binomial::sum_of_events(counts.redrawn as u64, counts.mean, counts.variance);
+                let (mean, variance) = (counts.expected.mean, counts.expected.variance());
+                let test = poisson_binomial::sum_of_events(counts.redrawn as u64, mean, variance);
                 // One side: a new threshold too close to the old one is missing from the count.
                 least_p = least_p.min(if test.z > 0.0 { 0.5 * test.p } else { 1.0 });
                 worst_z = worst_z.max(test.z);
@@ -103,8 +103,8 @@ fn trial(claim: &Claim, offsets: &[f64], subject: &Subject<'_>, draw: &Draw) -> 
                     series: format!("planes of constant {name}"),
                     x: offset,
                     measured: counts.redrawn as f64 / valid,
-                    predicted: counts.mean / valid,
-                    sigma: counts.variance.sqrt() / valid,
+                    predicted: mean / valid,
+                    sigma: variance.sqrt() / valid,
                 });
             }
             first_invalid = first_invalid.or(counts.first_invalid);
@@ -148,10 +148,8 @@ fn counts(
     let mut counts = Counts::default();
     for ((seen, old), new) in samples.iter().zip(before).zip(after) {
         if is_valid(old) && is_valid(new) {
-            let probability = predicted(subject, &seen.before.footprint, seen.motion);
             counts.valid += 1;
-            counts.mean += probability;
-            counts.variance += probability * (1.0 - probability);
+            counts.expected.add(subject, &seen.before.footprint, seen.motion);
             counts.redrawn += usize::from((old - new).abs() > REDRAW);
         } else {
             let (fragment, threshold) = if is_valid(old) { (&seen.after, new) } else { (&seen.before, old) };
