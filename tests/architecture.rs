@@ -12,7 +12,7 @@ const MAY_IMPORT: [(&str, &[&str]); 10] = [
     ("shader", &["threshold", "scene", "technique"]),
     ("render", &["threshold", "scene", "stats", "shader", "technique"]),
     ("check", &["threshold", "scene", "stats", "shader"]),
-    ("cost", &["threshold", "scene", "stats", "technique", "render"]),
+    ("cost", &["threshold", "scene", "stats", "shader", "technique", "render"]),
     ("report", &["threshold", "scene", "stats", "shader", "technique", "render", "check", "cost"]),
     ("cli", &["threshold", "scene", "stats", "shader", "technique", "render", "check", "cost", "report"]),
 ];

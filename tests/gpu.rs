@@ -11,6 +11,7 @@
 
 use glam::{DVec3, Vec3, dvec2};
 use hashed_alpha::check::parity::Law;
+use hashed_alpha::cost::{Effort, devices};
 use hashed_alpha::scene::{Camera, Fragment, Rectangle, Scene};
 use hashed_alpha::shader::assemble::{ShaderOptions, assemble};
 use hashed_alpha::shader::gpu::adapter::{Adapter, adapters};
@@ -68,7 +69,7 @@ fn swiftshader() -> Option<&'static str> {
 
 type Claim = fn(&Device) -> Result<(), Failed>;
 
-const CLAIMS: [(&str, Claim); 7] = [
+const CLAIMS: [(&str, Claim); 8] = [
     ("the_parity_report_names_where_differences_start", report_names_the_start),
     ("outputs_stand_in_the_order_of_inputs_whatever_the_chunk", outputs_stand_in_order),
     ("words_drawn_on_the_device_are_those_drawn_here", drawn_words_agree),
@@ -76,6 +77,7 @@ const CLAIMS: [(&str, Claim); 7] = [
     ("writing_nothing_is_told_from_writing_zero", nothing_is_not_zero),
     ("an_assembled_threshold_follows_the_one_in_rust", assembled_thresholds_follow),
     ("a_drawn_picture_has_the_derivatives_of_its_surface", pictures_have_derivatives),
+    ("every_effect_has_a_price_by_the_clock_of_the_device", effects_have_prices),
 ];
 
 fn trials() -> Vec<Trial> {
@@ -278,6 +280,17 @@ fn assembled_thresholds_follow(device: &Device) -> Result<(), Failed> {
 
 /// Inputs of a stage; those of its wrong shader are fewer.
 const PARITY_INPUTS: [u32; 2] = [1 << 17, 1 << 13];
+
+/// Every effect has a price there.
+fn effects_have_prices(device: &Device) -> Result<(), Failed> {
+    let prices = devices::prices(device, Effort::Quick, &|| ())?;
+    let missing: Vec<_> =
+        prices.iter().filter(|price| price.ns_min.is_nan() || price.ns_min <= 0.0).collect();
+    if prices.len() < 20 || !missing.is_empty() {
+        return Err(format!("{} prices, of which none: {missing:?}", prices.len()).into());
+    }
+    Ok(())
+}
 
 fn has_parity(device: &Device, stage: &Stage) -> Result<(), Failed> {
     let [count, few] = PARITY_INPUTS;

@@ -212,12 +212,16 @@ Examples:
   hashed-alpha cost --quick --out /dev/shm/cost
   hashed-alpha cost --json | jq -c 'select(.name == \"literal\") | [.tier, .isa, .ratio, .bits_equal]'
   hashed-alpha cost --effects             what each effect of the paper adds, and Table 1 beside it
+  hashed-alpha cost --effects --adapter nvidia
   hashed-alpha cost --sizes               time and memory of 10^4 to 10^9 samples, on 1 and 2 threads
   hashed-alpha cost --sizes --samples 10000000000")]
 pub struct CostArgs {
-    /// Measure effects: fixed, stochastic, hashed, fade-in, stratification, coverage
+    /// Measure effects: fixed, stochastic, hashed, fade-in, stratification, coverage; on the CPU and on the device
     #[arg(long, conflicts_with = "sizes")]
     pub effects: bool,
+    /// Index of a GPU or part of its name; also in the variable HASHED_ALPHA_ADAPTER
+    #[arg(long, value_name = "GPU", requires = "effects")]
+    pub adapter: Option<String>,
     /// Measure time and memory against the number of samples, on 1 and 2 threads
     #[arg(long)]
     pub sizes: bool,

@@ -28,7 +28,7 @@ pub fn run(args: &CheckArgs) -> Result<Ending, Failure> {
     };
     let words: Vec<_> = typed.iter().map(String::as_str).collect();
     shader_files::refuse_strays(&words, &args.shader)?;
-    drivers::silence(typed, &args.shader);
+    drivers::silence_for(typed, &args.shader);
     let subjects = subjects::subjects(typed, &args.shader)?;
     let claims = chosen_claims(&args.only)?;
     let known = args.expect.as_deref().map(known::read).transpose()?.unwrap_or_default();

@@ -11,7 +11,7 @@ use std::io::Write;
 pub fn run(args: &CompareArgs) -> Result<Ending, Failure> {
     shader_files::refuse_strays(&[&args.first, &args.second], &args.shader)?;
     for typed in [&args.first, &args.second] {
-        drivers::silence(std::slice::from_ref(typed), &args.shader);
+        drivers::silence_for(std::slice::from_ref(typed), &args.shader);
     }
     let [left, right] = [&args.first, &args.second]
         .map(|typed| subjects::subjects(std::slice::from_ref(typed), &args.shader));

@@ -2,16 +2,25 @@
 
 use super::args::CostArgs;
 use super::failure::Failure;
-use super::{Ending, output};
+use super::{Ending, drivers, output};
+use hashed_alpha::cost::effects::Price;
 use hashed_alpha::cost::{Effort, effects, ladder, sizes, techniques};
 use hashed_alpha::report::cost::{json, pictures, table};
 use hashed_alpha::report::directory::write_atomically;
+#[cfg(feature = "gpu")]
+use hashed_alpha::{
+    cost::devices,
+    shader::gpu::{Choice, Device},
+};
 use indicatif::ProgressBar;
 use std::io::{self, Write};
 use std::path::Path;
 
 /// Measures, writes tables and pictures into the folder, then the results.
 pub fn run(args: &CostArgs) -> Result<Ending, Failure> {
+    if args.effects {
+        drivers::silence();
+    }
     let place = || args.out.display().to_string();
     std::fs::create_dir_all(&args.out).map_err(|source| Failure::File {
         action: "create",
@@ -54,17 +63,45 @@ fn of_effects(args: &CostArgs, effort: Effort) -> Result<Ending, Failure> {
     let (techniques, frames) = measured(techniques::steps(), |done| {
         (techniques::techniques(effort, done), techniques::frames(effort, done))
     });
-    let kernels = table::prices(&prices);
+    let kernels = table::prices("effect", &prices);
     let [of_techniques, of_frames] = [table::techniques(&techniques), table::frames(&frames)];
     written(&args.out, "cost-effects.csv", &kernels.csv())?;
     written(&args.out, "cost-techniques.csv", &of_techniques.csv())?;
     written(&args.out, "cost-frames.csv", &of_frames.csv())?;
-    let tables = [kernels, of_techniques, of_frames, table::table_1()];
-    let text = tables.map(|table| table.aligned()).join("\n");
+    let device = on_device(args, effort);
+    let of_device = device.as_ref().map(|found| table::prices("effect on the device", &found.1));
+    if let Some(table) = &of_device {
+        written(&args.out, "cost-effects-device.csv", &table.csv())?;
+    }
+    let tables = [Some(kernels), of_device, Some(of_techniques), Some(of_frames), Some(table::table_1())];
+    let text = tables.into_iter().flatten().map(|table| table.aligned()).collect::<Vec<_>>().join("\n");
     print(args, &text, |out| {
-        json::write_prices(&prices, out)?;
+        json::write_prices("cpu", &prices, out)?;
+        if let Some((name, prices)) = &device {
+            json::write_prices(name, prices, out)?;
+        }
         json::write_techniques(&techniques, out)
     })
+}
+
+/// The name of the device and its price list; `None`, and why on stderr, where there is none.
+#[cfg(feature = "gpu")]
+fn on_device(args: &CostArgs, effort: Effort) -> Option<(String, Vec<Price>)> {
+    let choice = args.adapter.as_deref().map_or_else(Choice::from_environment, Choice::from);
+    let prices = Device::open(&choice).and_then(|device| {
+        let prices = measured(devices::steps(effort), |done| devices::prices(&device, effort, done))?;
+        let clock =
+            if device.has_timestamps() { "its own clock" } else { "a wall clock, transfers included" };
+        output::remark("note", format_args!("the device is {}, timed by {clock}", device.name()));
+        Ok((device.name().to_owned(), prices))
+    });
+    prices.inspect_err(|error| output::remark("note", format_args!("no prices on a device: {error}"))).ok()
+}
+
+#[cfg(not(feature = "gpu"))]
+fn on_device(_: &CostArgs, _: Effort) -> Option<(String, Vec<Price>)> {
+    output::remark("note", "no prices on a device: this program was built without the feature `gpu`");
+    None
 }
 
 fn of_sizes(args: &CostArgs, effort: Effort) -> Result<Ending, Failure> {

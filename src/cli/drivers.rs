@@ -3,16 +3,16 @@
 use super::args::{On, ShaderArgs};
 use super::shader_files::ShaderFile;
 
-/// Switches off the layer with which Mesa orders its Vulkan devices, where one of the subjects may run on a device: without
-/// a display server it complains of `XDG_RUNTIME_DIR`, twice, on everybody's stderr.
+/// Switches off the layer with which Mesa orders its Vulkan devices: without a display server it complains of
+/// `XDG_RUNTIME_DIR`, twice, on everybody's stderr.
 ///
 /// The layer reads its switch from the environment that the process began with, so the process begins again.
 #[cfg(unix)]
-pub fn silence(subjects: &[String], args: &ShaderArgs) {
+pub fn silence() {
     use std::os::unix::process::CommandExt;
     use std::{env, process::Command};
     const LAYER_OFF: &str = "NODEVICE_SELECT";
-    if !subjects.iter().any(|word| may_need_a_device(word, args.on)) || env::var_os(LAYER_OFF).is_some() {
+    if env::var_os(LAYER_OFF).is_some() {
         return;
     }
     if let Ok(program) = env::current_exe() {
@@ -23,7 +23,14 @@ pub fn silence(subjects: &[String], args: &ShaderArgs) {
 
 /// There is no such layer.
 #[cfg(not(unix))]
-pub fn silence(_: &[String], _: &ShaderArgs) {}
+pub fn silence() {}
+
+/// Does so where one of the subjects may run on a device.
+pub fn silence_for(subjects: &[String], args: &ShaderArgs) {
+    if subjects.iter().any(|word| may_need_a_device(word, args.on)) {
+        silence();
+    }
+}
 
 fn may_need_a_device(subject: &str, on: On) -> bool {
     match on {

@@ -32,17 +32,33 @@ pub struct Time {
 /// Times contenders in `rounds` rounds, at least one; `after_each` is called after every round.
 #[must_use]
 pub fn race(contenders: &mut [Contender<'_>], rounds: usize, after_each: impl Fn()) -> Vec<Time> {
+    let count = contenders.len();
+    let time = |index: usize, round| {
+        let Contender { items, run, touch } = &mut contenders[index];
+        black_box(touch(round));
+        let start = Instant::now();
+        black_box(run(round));
+        start.elapsed().as_secs_f64() * 1e9 / *items as f64
+    };
+    turns(count, rounds, time, after_each)
+}
+
+/// Lets so many contenders take turns in `rounds` rounds, at least one; `time` runs one in a round and returns what it took,
+/// and `after_each` is called after every round.
+#[must_use]
+pub fn turns(
+    contenders: usize,
+    rounds: usize,
+    mut time: impl FnMut(usize, usize) -> f64,
+    after_each: impl Fn(),
+) -> Vec<Time> {
     let mut rng = seed::rng("cost.order", 0);
-    let mut order: Vec<usize> = (0..contenders.len()).collect();
-    let mut times = vec![Vec::with_capacity(rounds); contenders.len()];
+    let mut order: Vec<usize> = (0..contenders).collect();
+    let mut times = vec![Vec::with_capacity(rounds); contenders];
     for round in 0..rounds.max(1) {
         order.shuffle(&mut rng);
         for &index in &order {
-            let Contender { items, run, touch } = &mut contenders[index];
-            black_box(touch(round));
-            let start = Instant::now();
-            black_box(run(round));
-            times[index].push(start.elapsed().as_secs_f64() * 1e9 / *items as f64);
+            times[index].push(time(index, round));
         }
         after_each();
     }

@@ -5,6 +5,7 @@
 //! | [`ladder`](mod@ladder) | what does each digit of a sine, a hash, a threshold cost? |
 //! | [`law`] | how uniform is a threshold, and how often does it change what is seen? |
 //! | [`effects`] | what does each effect of the paper add? |
+//! | `devices` (feature `gpu`) | what does it add on a device, by the device's own clock? |
 //! | `techniques` (feature `render`) | what does each technique add to a whole frame of the scene that shows it? |
 //! | [`sizes`] | do time and memory grow with the number of samples? |
 //! | [`clock`] | how things are timed so that the ratios mean something |
@@ -16,6 +17,8 @@
 
 pub mod baseline;
 pub mod clock;
+#[cfg(feature = "gpu")]
+pub mod devices;
 pub mod double_double;
 pub mod effects;
 pub mod ladder;

@@ -56,8 +56,9 @@ pub fn write_ladder(rows: &[Row], out: &mut (impl Write + ?Sized)) -> io::Result
 }
 
 #[derive(Serialize)]
-struct PriceLine {
+struct PriceLine<'a> {
     effect: &'static str,
+    on: &'a str,
     source: &'static str,
     over: &'static str,
     ns_min: f64,
@@ -66,15 +67,16 @@ struct PriceLine {
     over_fixed: f64,
 }
 
-/// Writes the price list.
+/// Writes the price list of `on`, the CPU or a device.
 ///
 /// # Errors
 /// What the writer says.
-pub fn write_prices(prices: &[Price], out: &mut (impl Write + ?Sized)) -> io::Result<()> {
+pub fn write_prices(on: &str, prices: &[Price], out: &mut (impl Write + ?Sized)) -> io::Result<()> {
     write_lines(
         out,
         prices.iter().map(|price| PriceLine {
             effect: price.name,
+            on,
             source: price.source,
             over: price.over,
             ns_min: price.ns_min,

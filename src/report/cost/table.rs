@@ -107,9 +107,9 @@ pub fn ladder(rows: &[Row]) -> Table {
     Table { headings: headings.to_vec(), rows: rows.iter().map(cells).collect() }
 }
 
-/// Returns the price list as a table.
+/// Returns a price list as a table; `effects` stands above the names of its rows.
 #[must_use]
-pub fn prices(prices: &[Price]) -> Table {
+pub fn prices(effects: &'static str, prices: &[Price]) -> Table {
     let cells = |price: &Price| {
         let over = if price.over == price.name { NOTHING } else { price.over };
         let words = [price.name, price.source, over].map(str::to_owned);
@@ -119,7 +119,7 @@ pub fn prices(prices: &[Price]) -> Table {
             .chain([format!("{:.2}", price.over_fixed)]);
         words.into_iter().chain(numbers).collect()
     };
-    let headings = ["effect", "source", "over", "ns min", "ns median", "marginal ns", "over fixed"];
+    let headings = [effects, "source", "over", "ns min", "ns median", "marginal ns", "over fixed"];
     Table { headings: headings.to_vec(), rows: prices.iter().map(cells).collect() }
 }
 
