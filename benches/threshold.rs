@@ -1,12 +1,13 @@
 //! What the stages of a threshold cost, one at a time: the paper's hash and every integer hash, both listings, both
-//! precisions.
+//! precisions; and what the statistics cost that judge them.
 //!
 //! Inputs are the footprints of the oblique scene, 65,536 of them, so that no branch predictor learns them by heart.
 
 use criterion::{
-    BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main, measurement::WallTime,
+    BatchSize, BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main, measurement::WallTime,
 };
 use hashed_alpha::scene::Scene;
+use hashed_alpha::stats::{anderson_darling, binomial, chi_square, ecdf, spectrum, two_sample};
 use hashed_alpha::threshold::cdf::CdfForm;
 use hashed_alpha::threshold::footprint::Footprint;
 use hashed_alpha::threshold::hash::{Cell, Hash, HashKind, sine};
@@ -62,10 +63,63 @@ fn thresholds<R: Real>(group: &mut BenchmarkGroup<'_, WallTime>) {
     }
 }
 
+fn two_scales<R: Real>(group: &mut BenchmarkGroup<'_, WallTime>) {
+    let footprints = footprints::<R>();
+    group.throughput(Throughput::Elements(footprints.len() as u64));
+    for variant in Variant::ALL {
+        group.bench_function(format!("{variant}/{}", R::NAME), |b| {
+            b.iter(|| {
+                for footprint in &footprints {
+                    black_box(variant.two_scale(black_box(footprint), R::from_f64(1.0)));
+                }
+            });
+        });
+    }
+}
+
+/// Each test over the thresholds of all footprints, in place of which evenly spread numbers in a mixed order stand.
+fn statistics(group: &mut BenchmarkGroup<'_, WallTime>) {
+    let value = |i: usize| ((i * 40_503) % SAMPLES) as f64 / SAMPLES as f64 + 0.5 / SAMPLES as f64;
+    let values: Vec<f64> = (0..SAMPLES).map(value).collect();
+    let counts = vec![(SAMPLES / 1024) as u64; 1024];
+    group.throughput(Throughput::Elements(SAMPLES as u64));
+    group.bench_function("chi_square", |b| b.iter(|| chi_square::uniform(black_box(&counts))));
+    group.bench_function("kolmogorov_smirnov", |b| {
+        b.iter_batched_ref(|| values.clone(), |v| ecdf::kolmogorov_smirnov(v), BatchSize::LargeInput);
+    });
+    group.bench_function("anderson_darling", |b| {
+        b.iter_batched_ref(
+            || values.clone(),
+            |v| anderson_darling::anderson_darling(v),
+            BatchSize::LargeInput,
+        );
+    });
+    group.bench_function("two_sample", |b| {
+        b.iter_batched_ref(
+            || (values.clone(), values.clone()),
+            |(left, right)| two_sample::kolmogorov_smirnov(left, right),
+            BatchSize::LargeInput,
+        );
+    });
+    group.bench_function("periodogram", |b| {
+        b.iter(|| spectrum::periodogram(black_box(&values), [256, SAMPLES / 256]));
+    });
+    group.bench_function("binomial", |b| {
+        b.iter(|| binomial::two_sided_p(black_box(32_000), SAMPLES as u64, 0.5));
+    });
+}
+
 fn all(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("hash");
     hashes::<f32>(&mut group);
     hashes::<f64>(&mut group);
+    group.finish();
+    let mut group = criterion.benchmark_group("two_scale");
+    two_scales::<f32>(&mut group);
+    two_scales::<f64>(&mut group);
+    group.finish();
+    let mut group = criterion.benchmark_group("statistics");
+    statistics(&mut group);
     group.finish();
     let mut group = criterion.benchmark_group("threshold");
     thresholds::<f32>(&mut group);

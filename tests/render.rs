@@ -70,7 +70,7 @@ fn takes() -> Vec<(SceneFile, Effects)> {
         conservative = {}
         foveated = { gaze = [20.0, 20.0], radius = 5.0, slope = 0.1 }
         occlusion = { reach = 0.5, variant = "anisotropic" }
-        history = { weight = 0.2, clamp = true }
+        history = { weight = 0.2, clamp = true, reproject = true }
         average = { frames = 4 }
     "#;
     takes.push((small("vanishing-foliage"), toml::from_str(combined).expect("known effects")));
@@ -110,6 +110,51 @@ fn every_scene_shows_what_it_must() {
             .collect();
         assert!(wrong.is_empty(), "{}: {wrong:#?}", entry.name);
     }
+}
+
+/// Every surface by the name that a user types, with the wrong one told. Meshes of files: `tests/render_assets.rs`.
+#[test]
+fn surfaces_of_every_kind_are_seen() {
+    for (texture, surface) in [
+        ("texture = 'leaf'", "plane = { size = [1.0, 1.0] }"),
+        ("texture = 'leaf'", "card = { size = [1.0, 1.0] }"),
+        ("texture = 'leaf'", "fence = { panels = 3, size = [0.4, 0.5] }"),
+        ("texture = 'leaf'", "foliage = { cards = 20, card = 0.3, radii = [0.5, 0.5, 0.5] }"),
+        ("texture = 'leaf'", "instances = { count = 9, size = [0.3, 0.4], ground = [0.5, 0.5] }"),
+        ("texture = 'leaf'", "hair = { strips = 9, size = [0.2, 0.7], radius = 0.4 }"),
+        ("texture = 'leaf'", "stack = { cards = 2, size = [0.9, 0.9], distance = 0.1 }"),
+        ("", "checkerboard = { size = [1.2, 1.2], square = 0.3 }"),
+    ] {
+        let text = format!(
+            "name = 'surface'\nresolution = [60, 45]\n[camera]\neye = [0.3, 1.5, 3.0]\ntarget = [0.0, 0.1, 0.0]\n\
+             [[texture]]\nname = 'leaf'\nleaves = {{}}\n[[surface]]\n{texture}\n{surface}\n"
+        );
+        let coverage = |text: &str| {
+            let file = file::read(text, "surface.toml").unwrap_or_else(|error| panic!("{error}"));
+            drawn(&ready(file)).takes[0].metrics["coverage"]
+        };
+        assert!((0.005..0.9).contains(&coverage(&text)), "{surface}: {}", coverage(&text));
+        let kind = surface.split(' ').next().expect("a word");
+        let wrong = text.replace(&format!("\n{kind} ="), &format!("\n{kind}x ="));
+        let error = file::read(&wrong, "surface.toml").expect_err("no such surface").to_string();
+        assert!(error.contains(&format!("`{kind}x`. Did you mean `{kind}`?")), "{error}");
+    }
+}
+
+/// Half of the squares of a board, which are opaque, and nothing but them: as its texture on a plane.
+#[test]
+fn a_checkerboard_is_a_plane_with_squares() {
+    let board = read("checkerboard");
+    let mut plane = board.clone();
+    let text = "name = 'plane'\n[camera]\neye = [0.0, 1.0, 0.0]\ntarget = [0.0, 0.0, 0.0]\nup = [1.0, 0.0, 0.0]\n\
+        [[texture]]\nname = 'board'\nwrap = 'repeat'\nfilter = 'anisotropic'\ncheckerboard = { squares = 8 }\n\
+        [[surface]]\ntexture = 'board'\nposition = [0.0, 0.013, 0.0]\nturn = [0.0, 31.0, 0.0]\n\
+        plane = { size = [400.0, 400.0], repeat = [100.0, 100.0] }\n";
+    let other = file::read(text, "plane.toml").expect("sound");
+    (plane.texture, plane.surface) = (other.texture, other.surface);
+    let small = |file: SceneFile| SceneFile { resolution: [60, 40], expect: Vec::new(), truth: None, ..file };
+    let [board, plane] = [board, plane].map(|file| drawn(&ready(small(file))));
+    assert!(board.sheet(None) == plane.sheet(None));
 }
 
 #[test]
@@ -431,7 +476,10 @@ fn table(name: &str, words: [u32; 3]) -> String {
             let chi = of(&["two-hashes", "offsets", "word", "seeded", "random"], words[1]);
             format!("reach = {}, chi = {chi}", share(words[0]))
         }
-        "history" => format!("weight = {}, clamp = {}", share(words[0]), words[1].is_multiple_of(2)),
+        "history" => {
+            let [clamp, reproject] = [words[1], words[2]].map(|word| word.is_multiple_of(2));
+            format!("weight = {}, clamp = {clamp}, reproject = {reproject}", share(words[0]))
+        }
         _ => panic!("`{name}` needs parameters here"),
     };
     format!("{name} = {{ {inner} }}\n")

@@ -354,8 +354,8 @@ pub struct ExplainArgs {
 
 /// Draws scenes, measures the pictures and checks what the scenes expect of them
 ///
-/// Writes NAME.png (the takes side by side, the truth last, then enlarged insets and differences), NAME.json and NAME.csv. Exit
-/// code 1 where a scene does not show what it must.
+/// Writes NAME.png (the takes side by side, the truth last, then enlarged insets and differences), NAME.json, NAME.csv and,
+/// of scenes with several distances, NAME-distance.svg (coverage against distance). Exit code 1 where a scene does not show what it must.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:

@@ -4,9 +4,10 @@ use super::args::RenderArgs;
 use super::failure::Failure;
 use super::{Ending, output, scene_files};
 use hashed_alpha::render::picture::{animation, png};
+use hashed_alpha::render::prepare::Scene;
 use hashed_alpha::render::study::{Study, study};
 use hashed_alpha::report::directory::write_atomically;
-use hashed_alpha::report::study::{json, write_csv, write_table};
+use hashed_alpha::report::study::{distances, json, write_csv, write_table};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::fmt::Display;
 use std::fs;
@@ -32,7 +33,7 @@ pub fn run(args: &RenderArgs) -> Result<Ending, Failure> {
         });
         bar.finish_and_clear();
         let text = json(&scene, &study).map_err(|error| making("numbers", error))?;
-        write(&args.out, &scene.file.name, &study, &scene.file.inset, &text, args.sequence)?;
+        write(&args.out, &scene, &study, &text, args.sequence)?;
         if args.json {
             writeln!(results, "{text}").map_err(Failure::Output)?;
         } else {
@@ -53,14 +54,8 @@ fn making(what: &str, error: impl Display) -> Failure {
 }
 
 /// Writes the files of a scene, the pictures last.
-fn write(
-    folder: &Path,
-    name: &str,
-    study: &Study,
-    inset: &Option<hashed_alpha::render::file::Inset>,
-    json: &str,
-    sequence: bool,
-) -> Result<(), Failure> {
+fn write(folder: &Path, scene: &Scene, study: &Study, json: &str, sequence: bool) -> Result<(), Failure> {
+    let name = &scene.file.name;
     write_atomically(&folder.join(format!("{name}.json")), json.as_bytes())?;
     let mut csv = Vec::new();
     write_csv(study, &mut csv).map_err(|error| making("table", error))?;
@@ -72,7 +67,10 @@ fn write(
             write_atomically(&folder.join(file), &moving)?;
         }
     }
-    let sheet = png(&study.sheet(inset.as_ref())).map_err(|error| making("picture", error))?;
+    if let Some(figure) = distances(scene, study) {
+        write_atomically(&folder.join(format!("{name}-distance.svg")), figure.as_bytes())?;
+    }
+    let sheet = png(&study.sheet(scene.file.inset.as_ref())).map_err(|error| making("picture", error))?;
     write_atomically(&folder.join(format!("{name}.png")), &sheet)?;
     Ok(())
 }

@@ -37,6 +37,7 @@ quantities! {
     randoms: "Random numbers that were drawn.";
     tests: "Comparisons of an alpha with a threshold.";
     rays: "Rays that were traced.";
+    projections: "Pixels whose surface was looked for in the frame before.";
     blends: "Pixels that were mixed with those of other frames or layers.";
 }
 

@@ -101,7 +101,7 @@ effects! {
     occlusion: Occlusion, "§9, Fig. 8", "Traces one ray a pixel into the open, in a direction that stays with the surface",
         "rays: 1 for each pixel that shows a surface; hashes or random numbers: 2 values a ray";
     history: History, "§7.2 (Karis 2014)", "Averages frames exponentially, as temporal antialiasing does",
-        "blends: 1 a pixel and frame";
+        "blends: 1 a pixel and frame; projections: 1 a pixel and frame if reprojected";
     average: Average, "§7.2", "Averages frames, as temporal antialiasing does", "samples: one blend a pixel and frame";
 }
 
@@ -138,6 +138,12 @@ pub fn check(effects: &Effects) -> Result<(), String> {
         let mut others = others.iter().filter(|(_, present)| *present).map(|(name, _)| *name);
         if let Some(other) = others.next().or(sources.first().copied()) {
             return Err(format!("`naive_blend` tests nothing and `{other}` does; keep one"));
+        }
+        if effects.history.as_ref().is_some_and(|history| history.reproject) {
+            return Err(
+                "`history.reproject` needs one depth a pixel and `naive_blend` shows several; keep one"
+                    .to_owned(),
+            );
         }
     }
     let noisy = !matches!(sources[..], [] | ["fixed" | "level_threshold" | "screen_door"]);

@@ -344,6 +344,11 @@ fn check(scene: &SceneFile) -> Result<(), Wrong> {
     for (index, surface) in scene.surface.iter().enumerate() {
         let what = format!("surface {}", index + 1);
         exactly_one(surface.texture.as_ref().map(toml::Spanned::span), &what, &surface.kinds(), SURFACES)?;
+        if let Some(board) = &surface.checkerboard
+            && !board.size.iter().chain([&board.square]).all(|side| side.is_finite() && *side > 0.0)
+        {
+            return wrong(format!("{what}: `checkerboard.size` and `.square` must be above 0"));
+        }
         match &surface.texture {
             Some(name) if !names.contains(&name.as_ref().as_str()) => {
                 let likely = nearest(name.as_ref(), &names)
@@ -353,7 +358,13 @@ fn check(scene: &SceneFile) -> Result<(), Wrong> {
                     format!("no texture is called `{}`.{likely}", name.as_ref()),
                 ));
             }
-            None if surface.mesh.is_none() => return wrong(format!("{what} has no `texture`")),
+            Some(name) if surface.checkerboard.is_some() => {
+                let message = "a checkerboard has a texture of its own; take `texture` away".to_owned();
+                return Err((Some(name.span()), message));
+            }
+            None if surface.mesh.is_none() && surface.checkerboard.is_none() => {
+                return wrong(format!("{what} has no `texture`"));
+            }
             _ => {}
         }
     }
@@ -366,7 +377,7 @@ fn check(scene: &SceneFile) -> Result<(), Wrong> {
 }
 
 const TEXTURES: &str = "leaves, wire, hair, checkerboard, constant, ramp, image";
-const SURFACES: &str = "card, plane, fence, foliage, instances, hair, stack, mesh";
+const SURFACES: &str = "card, plane, fence, foliage, instances, hair, stack, checkerboard, mesh";
 
 fn exactly_one(span: Option<Range<usize>>, what: &str, kinds: &[&str], known: &str) -> Result<(), Wrong> {
     match kinds {
@@ -453,6 +464,16 @@ variant = \"anisotropic\"
             ("name = \"card\"", "name = \"card\"\nresolution = [0, 5]", "from 1 to 16384"),
             ("variant = \"anisotropic\"", "[effects.fixed]", "hashed"),
             ("card = { size = [1.0, 1.0] }", "sphere = 1", "unknown key `sphere`"),
+            (
+                "card = { size = [1.0, 1.0] }",
+                "checkerboard = { size = [1.0, 1.0], square = 0.1 }",
+                "s.toml:9:11: a checkerboard has a texture of its own",
+            ),
+            (
+                "texture = \"leaf\"\ncard = { size = [1.0, 1.0] }",
+                "checkerboard = { size = [1.0, 1.0], square = 0.0 }",
+                "must be above 0",
+            ),
         ] {
             let message = wrong(from, to);
             assert!(message.contains(expected), "{to}: {message}");

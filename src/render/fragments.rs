@@ -19,6 +19,8 @@ pub struct Needs {
     pub frame: bool,
     /// The share of its pixel that it covers; every pixel that a triangle touches is drawn then.
     pub coverage: bool,
+    /// The depth of what each pixel shows.
+    pub depth: bool,
     /// Which of so many samples of its pixel it covers, in place of whether it covers the centre.
     pub samples: Option<NonZeroU32>,
 }
@@ -35,6 +37,7 @@ impl Needs {
             (self.lod, "level of detail"),
             (self.frame, "index of the frame"),
             (self.coverage, "share of the pixel that is covered"),
+            (self.depth, "depth of what each pixel shows"),
             (self.samples.is_some(), "samples that geometry covers"),
         ];
         all.into_iter().filter(|&(needed, _)| needed).map(|(_, name)| name).collect()

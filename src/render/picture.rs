@@ -1,6 +1,7 @@
 //! Pictures: colours and coverage of an image, and what is made of several.
 
 use super::file::Inset;
+use glam::DVec2;
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{Rgb, RgbImage};
 
@@ -36,6 +37,32 @@ impl Picture {
     #[must_use]
     pub fn mean_coverage(&self) -> f64 {
         self.coverage.iter().map(|&share| f64::from(share)).sum::<f64>() / self.coverage.len().max(1) as f64
+    }
+
+    /// Returns colour and coverage at a place, in pixels from the upper left corner, mixed of the four pixels around it;
+    /// `None` outside of the picture.
+    #[must_use]
+    pub fn at(&self, place: DVec2) -> Option<([f32; 3], f32)> {
+        let inside = |axis: usize| (0.0..f64::from(self.size[axis])).contains(&place[axis]);
+        if !(inside(0) && inside(1)) {
+            return None;
+        }
+        let [across, down] = [0, 1].map(|axis| {
+            // Half of the outermost pixels lies beyond the last centre.
+            let last = self.size[axis] - 1;
+            let along = (place[axis] - 0.5).clamp(0.0, f64::from(last));
+            let first = along as u32;
+            [(first, 1.0 - (along - f64::from(first))), ((first + 1).min(last), along - f64::from(first))]
+        });
+        let (mut colour, mut coverage) = ([0.0; 3], 0.0);
+        for (y, of_row) in down {
+            for (x, of_pixel) in across {
+                let (at, share) = ((y * self.size[0] + x) as usize, (of_row * of_pixel) as f32);
+                colour = [0, 1, 2].map(|c| colour[c] + share * self.colour[at][c]);
+                coverage += share * self.coverage[at];
+            }
+        }
+        Some((colour, coverage))
     }
 
     /// Returns the picture in which each pixel is the mean of a square of so many along each side.
@@ -184,6 +211,16 @@ mod tests {
         let mean = Picture::mean([grey([4, 2], 0.0), grey([4, 2], 0.5)].iter());
         assert_eq!(mean, grey([4, 2], 0.25));
         assert_eq!(mean.downsample(2), grey([2, 1], 0.25));
+    }
+
+    #[test]
+    fn between_pixels_is_their_mixture() {
+        let mut picture = grey([3, 2], 0.0);
+        picture.coverage = vec![0.0, 1.0, 0.5, 0.0, 0.0, 0.5];
+        let at = |x: f64, y: f64| picture.at(DVec2::new(x, y)).map(|(_, coverage)| coverage);
+        assert_eq!([at(1.5, 0.5), at(1.0, 0.5), at(2.0, 1.0)], [Some(1.0), Some(0.5), Some(0.5)]);
+        assert_eq!([at(0.0, 0.2), at(2.99, 1.9)], [Some(0.0), Some(0.5)]);
+        assert_eq!([at(-0.01, 0.5), at(3.0, 0.5), at(1.0, 2.0), at(f64::NAN, 1.0)], [None; 4]);
     }
 
     #[test]

@@ -159,6 +159,7 @@ pub fn plan(effects: &Effects) -> Plan {
                 .chain(effects.occlusion.map(|occlusion| occlusion.chi == Chi::Random))
                 .any(|reads| reads),
             coverage: effects.conservative.is_some(),
+            depth: effects.history.as_ref().is_some_and(|history| history.reproject),
         },
         textures: TextureNeeds {
             premultiplied: effects.premultiplied.is_some(),
@@ -247,7 +248,11 @@ impl Plan {
                 Stage::Test => cost.tests += thresholds,
                 Stage::Occlude(table) => cost += occlusion::cost(table, shown),
                 Stage::Blend(_) | Stage::BlendAll => cost.blends += fragments,
-                Stage::History(_) | Stage::Average(_) => cost.blends += pixels,
+                Stage::History(table) => {
+                    cost.blends += pixels;
+                    cost.projections += if table.reproject { pixels } else { 0 };
+                }
+                Stage::Average(_) => cost.blends += pixels,
                 _ => {}
             }
         }

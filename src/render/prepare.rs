@@ -4,6 +4,7 @@ use super::file::{SceneFile, TextureTable};
 use super::gltf_file::{self, MeshError};
 use super::image_file::{self, ImageError};
 use super::mesh::Mesh;
+use super::surface::Board;
 use super::texture::{Filter, Level, Texture, Wrap};
 use std::path::Path;
 use std::sync::OnceLock;
@@ -59,6 +60,12 @@ pub fn prepare(file: SceneFile, folder: &Path) -> Result<Scene, AssetError> {
             .texture
             .as_ref()
             .and_then(|name| file.texture.iter().position(|texture| texture.name.as_ref() == name.as_ref()));
+        let named = named.or_else(|| {
+            surface.checkerboard.as_ref().map(|_| {
+                covers.push(Board::cover());
+                covers.len() - 1
+            })
+        });
         mesh.objects.push(surface.object());
         if let Some(from) = &surface.mesh {
             let found = gltf_file::read(&folder.join(&from.file), from.scale, named.is_none())?;

@@ -111,11 +111,9 @@ pub fn frame(scene: &Scene, textures: &[Texture], plan: &Plan, shot: &Shot, inde
     let mut cost = Cost { frames: 1, passes, ..Cost::default() };
     let mut layers = LayerSums::default();
     let mut rays = vec![[0; 2]; if draw.occluders.is_some() { touched.len() } else { 0 }];
-    let mut depth = scene
-        .file
-        .depth
-        .as_ref()
-        .map(|_| Depth { size: camera.resolution, values: vec![f32::INFINITY; touched.len()] });
+    let mut depth = draw
+        .keeps_depth()
+        .then(|| Depth { size: camera.resolution, values: vec![f32::INFINITY; touched.len()] });
     for (tile, result) in tiles.iter().enumerate() {
         cost += result.cost;
         layers.covariance += result.layers.covariance;
@@ -169,6 +167,10 @@ struct Draw<'a> {
 }
 
 impl Draw<'_> {
+    fn keeps_depth(&self) -> bool {
+        self.scene.file.depth.is_some() || self.plan.needs.depth
+    }
+
     fn texture(&self, triangle: u32) -> &Texture {
         &self.textures[self.scene.mesh.triangles[triangle as usize].texture as usize]
     }
@@ -181,7 +183,7 @@ impl Draw<'_> {
             cost: Cost::default(),
             layers: LayerSums::default(),
             rays: Vec::new(),
-            depth: if self.scene.file.depth.is_some() { vec![f32::INFINITY; PIXELS] } else { Vec::new() },
+            depth: if self.keeps_depth() { vec![f32::INFINITY; PIXELS] } else { Vec::new() },
         };
         if self.occluders.is_some() {
             result.rays = vec![[0; 2]; PIXELS];

@@ -187,7 +187,11 @@ impl Stage {
             }
             Self::History(history) => {
                 let clamped = if history.clamp { ", clamped to its neighbourhood" } else { "" };
-                format!("history: {} of the newest frame, the rest of those before{clamped}", history.weight)
+                let moved = if history.reproject { " where the camera has left them" } else { "" };
+                format!(
+                    "history: {} of the newest frame, the rest of those before{moved}{clamped}",
+                    history.weight
+                )
             }
             Self::Clamp => "clamp: into [2^-24, 1], last".to_owned(),
             Self::Test => "test: keep where alpha >= threshold".to_owned(),

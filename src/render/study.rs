@@ -11,10 +11,11 @@ use super::plan::{Plan, TextureNeeds, plan};
 use super::prepare::Scene;
 use super::run;
 use super::stage::Stage;
+use super::temporal::{self, Moved};
 use super::texture::Texture;
 use super::truth;
 use super::view::Cause;
-use super::{auto, picture, temporal};
+use super::{auto, picture};
 use crate::scene::Camera;
 use image::RgbImage;
 use std::collections::VecDeque;
@@ -233,10 +234,17 @@ impl Take {
             match stage {
                 Stage::History(table) => {
                     if let Some(before) = average {
-                        frame.picture = temporal::accumulate(before, &frame.picture, table);
+                        let moved = frame.depth.as_ref().filter(|_| table.reproject).map(|depth| Moved {
+                            now: shot.camera(scene, index, 1),
+                            before: shot.camera(scene, index - 1, 1),
+                            offset: self.plan.offset(index) / f64::from(self.plan.places),
+                            depth,
+                        });
+                        frame.picture = temporal::accumulate(before, &frame.picture, table, moved.as_ref());
                     }
                     *average = Some(frame.picture.clone());
                     frame.cost.blends += pixels;
+                    frame.cost.projections += if table.reproject { pixels } else { 0 };
                 }
                 Stage::Average(frames) => {
                     last.push_back(frame.picture);

@@ -1,6 +1,9 @@
 //! Surfaces of a scene file, and the triangles that they become.
 
 use super::mesh::{Mesh, Object, Vertex};
+use super::prepare::Cover;
+use super::procedural::Checkerboard;
+use super::texture::{Filter, Wrap};
 use glam::{DAffine3, DMat3, DQuat, DVec2, DVec3, EulerRot, dvec2, dvec3};
 use rand::rngs::Xoshiro256PlusPlus;
 use rand::{RngExt, SeedableRng};
@@ -11,7 +14,7 @@ use std::path::PathBuf;
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Surface {
-    /// Name of the texture that covers it; a mesh may bring its own.
+    /// Name of the texture that covers it; a mesh may bring its own, a checkerboard does.
     pub texture: Option<toml::Spanned<String>>,
     /// Its place in the world, in object units.
     #[serde(default)]
@@ -45,6 +48,8 @@ pub struct Surface {
     pub hair: Option<HairStrips>,
     /// Parallel cards, one behind the other.
     pub stack: Option<Stack>,
+    /// Transparent and opaque squares in the plane of constant y, with a texture of its own.
+    pub checkerboard: Option<Board>,
     /// A glTF file.
     pub mesh: Option<MeshFile>,
 }
@@ -121,6 +126,28 @@ pub struct Stack {
     pub distance: f64,
 }
 
+/// A checkerboard: squares of alpha 0 and 1 in turn.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Board {
+    /// Length of both sides, in object units.
+    pub size: [f64; 2],
+    /// Side of a square, in object units.
+    pub square: f64,
+}
+
+impl Board {
+    /// Squares along each side of its texture.
+    const SQUARES: u32 = 8;
+
+    /// Returns its texture, read along the longer axis of a footprint: boards are seen at grazing angles.
+    #[must_use]
+    pub fn cover() -> Cover {
+        let finest = Checkerboard { squares: Self::SQUARES }.draw(256, 1.0);
+        Cover { finest, wrap: Wrap::Repeat, filter: Filter::Anisotropic }
+    }
+}
+
 /// A mesh from a file.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -152,6 +179,7 @@ impl Surface {
             ("instances", self.instances.is_some()),
             ("hair", self.hair.is_some()),
             ("stack", self.stack.is_some()),
+            ("checkerboard", self.checkerboard.is_some()),
             ("mesh", self.mesh.is_some()),
         ];
         all.into_iter().filter(|&(_, present)| present).map(|(name, _)| name).collect()
@@ -172,6 +200,7 @@ impl Surface {
     pub fn build(&self, mesh: &mut Mesh, object: u32, texture: u32, seed: u64) {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed ^ (u64::from(object) << 32) ^ 0x5eed);
         let model = DAffine3::from_quat(turned(self.model_turn));
+        let flat = DAffine3::from_rotation_x(-core::f64::consts::FRAC_PI_2);
         let mut add = |size: [f64; 2], repeat: [f64; 2], place: DAffine3| {
             mesh.quad(rectangle(size, repeat, model * place), object, texture);
         };
@@ -179,7 +208,11 @@ impl Surface {
             add(*size, *repeat, DAffine3::IDENTITY);
         }
         if let Some(Card { size, repeat }) = &self.plane {
-            add(*size, *repeat, DAffine3::from_rotation_x(-core::f64::consts::FRAC_PI_2));
+            add(*size, *repeat, flat);
+        }
+        if let Some(Board { size, square }) = &self.checkerboard {
+            let repeat = size.map(|side| side / (square * f64::from(Board::SQUARES)));
+            add(*size, repeat, flat);
         }
         if let Some(Fence { panels, size, repeat }) = &self.fence {
             for panel in 0..*panels {

@@ -105,6 +105,9 @@ pub struct History {
     /// Whether the average is brought into the range of the newest frame around each pixel.
     #[serde(default)]
     pub clamp: bool,
+    /// Whether the average is looked up where the motion of the camera has left it; without, pixels stay where they are.
+    #[serde(default)]
+    pub reproject: bool,
 }
 
 /// One threshold for all.

@@ -5,6 +5,7 @@ use crate::render::effects::Effects;
 use crate::render::plan::Plan;
 use crate::render::prepare::Scene;
 use crate::render::study::{Study, Take};
+use crate::report::figure::distance::{Kept, Point, distance};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::io::{self, Write};
@@ -145,6 +146,33 @@ pub fn write_csv(study: &Study, out: &mut impl Write) -> io::Result<()> {
         writeln!(out)?;
     }
     Ok(())
+}
+
+/// Draws coverage against distance as SVG text; `None` for a scene that is seen from one distance only.
+#[must_use]
+pub fn distances(scene: &Scene, study: &Study) -> Option<String> {
+    let mut factors = scene.file.distance.as_ref()?.factors.clone();
+    factors.push(1.0);
+    factors.sort_by(f64::total_cmp);
+    factors.dedup();
+    let at = |take: &Take, name: &str, factor: f64| {
+        let key = if factor == 1.0 { name.to_owned() } else { format!("{name}@{factor}") };
+        take.metrics.get(&key).copied()
+    };
+    let line = |take: &Take| Kept {
+        name: take.plan.name.clone(),
+        points: factors.iter().filter_map(|&x| Some([x, at(take, "coverage", x)?])).collect(),
+    };
+    // Any take knows what share it has of the truth, if it shows something.
+    let right = |x: f64| -> Option<Point> {
+        study.takes.iter().find_map(|take| {
+            let (coverage, ratio) = (at(take, "coverage", x)?, at(take, "coverage_ratio", x)?);
+            (ratio > 0.0).then(|| [x, coverage / ratio])
+        })
+    };
+    let takes: Vec<Kept> = study.takes.iter().map(line).collect();
+    let truth: Vec<Point> = factors.iter().filter_map(|&x| right(x)).collect();
+    Some(distance(&format!("{}: coverage against distance", scene.file.name), &takes, &truth))
 }
 
 /// The keys of a study, in their order.

@@ -1,5 +1,8 @@
-//! What temporal antialiasing makes of a sequence of frames: an exponential average with a clamped history (§7.2;
-//! Karis 2014).
+//! What temporal antialiasing makes of a sequence of frames: an exponential average with a history that follows the motion
+//! of the camera and is clamped (§7.2; Karis 2014).
+
+use crate::scene::Camera;
+use glam::DVec2;
 
 /// Returns the next value of the average: `(1 - weight) history + weight current`.
 ///
@@ -18,6 +21,22 @@ pub fn clamp_history(history: f64, neighbourhood: &[f64]) -> f64 {
     let least = neighbourhood.iter().copied().fold(f64::INFINITY, f64::min);
     let most = neighbourhood.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     if least <= most { history.clamp(least, most) } else { history }
+}
+
+/// Returns the way from where a still surface is seen to where it was seen before, in pixels: the history of the pixel is
+/// found there. `None` where it was behind the camera.
+///
+/// `pixel` is in pixels of the camera `now`, `depth` along its line of sight, in object units; infinite for the sky, which
+/// moves when the camera turns.
+#[must_use]
+pub fn way_back(now: &Camera, before: &Camera, pixel: DVec2, depth: f64) -> Option<DVec2> {
+    let direction = now.ray(pixel).direction;
+    let [here, there] = if depth.is_finite() {
+        [now.eye + direction * depth; 2]
+    } else {
+        [now.eye + direction, before.eye + direction]
+    };
+    Some(before.project(there)? - now.project(here)?)
 }
 
 /// Returns the variance of the average of independent frames, in variances of one frame: `weight / (2 - weight)`.
@@ -67,6 +86,7 @@ mod tests {
     use crate::threshold::hash::integer::murmur3;
     use crate::threshold::hash::open_lattice;
     use core::num::NonZeroU32;
+    use glam::{DVec3, dvec2, dvec3};
 
     #[test]
     fn a_repeated_sequence_settles_where_the_closed_form_says() {
@@ -114,6 +134,25 @@ mod tests {
         assert_eq!(clamp_history(0.8, &[0.0; 9]), 0.0);
         assert_eq!(clamp_history(0.8, &[0.0, 1.0, 0.0]), 0.8);
         assert_eq!(clamp_history(0.8, &[]), 0.8);
+    }
+
+    #[test]
+    fn surfaces_are_found_where_they_were() {
+        let camera = |eye: DVec3, up| Camera::look_at(eye, eye + dvec3(0.1, 0.2, -4.0), up, 0.4, [200, 100]);
+        let now = camera(dvec3(1.0, 2.0, 5.0), DVec3::Y);
+        let pixel = dvec2(31.7, 80.2);
+        let point = now.eye + now.ray(pixel).direction * 3.0;
+        let turned = camera(now.eye, dvec3(0.3, 1.0, 0.0));
+        for (before, turns) in [(camera(dvec3(0.7, 2.1, 5.5), DVec3::Y), false), (turned, true)] {
+            let way = way_back(&now, &before, pixel, 3.0).unwrap();
+            assert!((pixel + way - before.project(point).unwrap()).length() < 1e-9 && way.length() > 1.0);
+            // The sky stays where it is unless the camera turns.
+            let sky = way_back(&now, &before, pixel, f64::INFINITY).unwrap();
+            assert_eq!(sky.length() > 1e-9, turns, "{sky}");
+        }
+        assert_eq!(way_back(&now, &now, pixel, 3.0), Some(DVec2::ZERO));
+        let ahead = camera(point + dvec3(0.0, 0.0, -1.0), DVec3::Y);
+        assert_eq!(way_back(&now, &ahead, pixel, 3.0), None);
     }
 
     fn mean_flicker(alpha: f64, threshold: impl Fn(f64, u32) -> f64) -> f64 {

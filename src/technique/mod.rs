@@ -295,6 +295,14 @@ pub const ALL: &[Technique] = &[
     .seen("temporal-ghosts", "phase-rotated", "history")
     .tested("what_vanished_is_forgotten_in_the_time_said"),
     technique(
+        "reprojected-history",
+        "§7.2 (Karis 2014)",
+        "technique::history",
+        "The average is looked up where the motion of the camera has left it, and leaves no ghosts of still surfaces.",
+    )
+    .seen("temporal-ghosts", "phase-rotated, reprojected", "history")
+    .tested("surfaces_are_found_where_they_were"),
+    technique(
         "premultiplied-alpha",
         "§7.3",
         "technique::premultiplied",

@@ -12,6 +12,7 @@
 //! | [`noise`] | the thresholds themselves as grey levels |
 //! | [`validity`] | where each arithmetic keeps the law of the hash |
 //! | [`planes`] | bias, flicker and missing thresholds on planes that follow an axis |
+//! | [`distance`] | coverage against distance |
 //! | [`evidence`] | what a claim saw |
 //! | [`front`] | a value against the time that it costs, and the points that no other one beats |
 //! | [`growth`] | costs against a size |
@@ -19,6 +20,7 @@
 
 pub mod before_and_after;
 pub mod cdf_family;
+pub mod distance;
 pub mod evidence;
 pub mod front;
 pub mod growth;
