@@ -4,7 +4,7 @@
 //! write what it does and name the row that it is an addition to.
 
 use super::Effort;
-use super::clock::{Contender, race};
+use super::clock::{Contender, Time, race};
 use super::pool::{Pool, SLICE, WIDE};
 use crate::stats::seed;
 use crate::technique::multisampling::sample_place;
@@ -281,23 +281,25 @@ pub fn prices(effort: Effort, done: &dyn Fn()) -> Vec<Price> {
         })
         .collect();
     let times = race(&mut contenders, steps(effort) as usize, done);
-    let median = |name: &str| {
-        let at = EFFECTS.iter().position(|effect| effect.name == name);
-        at.map_or(f64::NAN, |at| times[at].median)
+    let rows: Vec<_> = EFFECTS.iter().map(|effect| [effect.name, effect.source, effect.over]).collect();
+    listed(&rows, &times)
+}
+
+/// Makes a price list of times: a row is a name, its place in the sources, and the name of the row that it is an addition to.
+pub(super) fn listed(rows: &[[&'static str; 3]], times: &[Time]) -> Vec<Price> {
+    let median = |wanted: &str| {
+        rows.iter().position(|[name, ..]| *name == wanted).map_or(f64::NAN, |at| times[at].median)
     };
-    EFFECTS
-        .iter()
-        .zip(&times)
-        .map(|(effect, time)| Price {
-            name: effect.name,
-            source: effect.source,
-            over: effect.over,
-            ns_min: time.min,
-            ns_median: time.median,
-            marginal: if effect.name == effect.over { 0.0 } else { time.median - median(effect.over) },
-            over_fixed: time.median / median("fixed"),
-        })
-        .collect()
+    let price = |(&[name, source, over], time): (&[&'static str; 3], &Time)| Price {
+        name,
+        source,
+        over,
+        ns_min: time.min,
+        ns_median: time.median,
+        marginal: if name == over { 0.0 } else { time.median - median(over) },
+        over_fixed: time.median / median("fixed"),
+    };
+    rows.iter().zip(times).map(price).collect()
 }
 
 /// Milliseconds a frame on a GeForce GTX 1080 at 1920 x 1080: scene, traditional, hashed, stochastic. Table 1.
@@ -356,6 +358,15 @@ mod tests {
             };
             assert!((share - expected).abs() < 0.08, "{}: {share}", effect.name);
         }
+    }
+
+    #[test]
+    fn a_price_is_the_middle_round_less_that_of_the_base() {
+        let times = [10.0, 25.0, 75.0].map(|median| Time { min: 1.0, median });
+        let rows = [["fixed", "", "fixed"], ["hashed", "", "fixed"], ["faded", "", "hashed"]];
+        let found = listed(&rows, &times);
+        assert_eq!([0, 1, 2].map(|at| found[at].marginal), [0.0, 15.0, 50.0]);
+        assert_eq!([0, 1, 2].map(|at| found[at].over_fixed), [1.0, 2.5, 7.5]);
     }
 
     #[test]
