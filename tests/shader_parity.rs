@@ -234,7 +234,8 @@ fn effects_twin(
     if let Some(Coverage { samples, strata }) = options.coverage {
         let n = NonZeroU32::from(samples);
         let [x, y] = fragment.pixel.to_array().map(|c| c as u32);
-        let words = pcg4d([x, y, fragment.frame, fragment.layer]);
+        let frame = if options.stratify.is_some() { fragment.frame } else { 0 };
+        let words = pcg4d([x, y, frame, fragment.layer]);
         let xi = [open_lattice::<f32>(words[1]), open_lattice(words[2])];
         let stratum = match (strata, literal) {
             (Strata::InOrder, _) => sample,
@@ -310,6 +311,24 @@ fn effects_are_the_same_bits() {
                     }
                 }
             }
+        }
+    }
+}
+
+/// Eq. 9 hashes the order of the strata: it stays from frame to frame where the threshold does.
+#[test]
+fn strata_without_frames_are_the_same_bits() {
+    let fragments = fragments(1000);
+    let plain = ShaderOptions { hash: HashKind::Mm4, ..ShaderOptions::listing(Variant::Isotropic) };
+    let base = run(&read(&plain, &[]), &fragments);
+    for strata in [Strata::Decorrelated, Strata::Shuffled] {
+        let coverage = Some(Coverage { samples: NonZeroU16::new(8).unwrap(), strata });
+        let options = ShaderOptions { coverage, ..plain };
+        assert!(!options.parameters().iter().any(|parameter| parameter.name == "frame"));
+        let found = run(&read(&options, &[("sample_index", "5")]), &fragments);
+        for ((fragment, &base), found) in fragments.iter().zip(&base).zip(found) {
+            let wanted = effects_twin(&options, fragment, 5, [1.0; 2], base);
+            assert!(same(found, wanted), "{options:?}\n{fragment:?}\n{found} {wanted}");
         }
     }
 }

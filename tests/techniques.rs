@@ -44,6 +44,10 @@ fn missing(technique: &Technique, tests: &HashSet<String>) -> Option<String> {
     let Some((file, set)) = take(technique.scene, technique.take) else {
         return Some(format!("no take `{}` in the scene `{}`", technique.take, technique.scene));
     };
+    let module = Path::new(env!("CARGO_MANIFEST_DIR")).join("src").join(technique.module.replace("::", "/"));
+    if !module.with_extension("rs").is_file() && !module.join("mod.rs").is_file() {
+        return Some(format!("no module `{}`", technique.module));
+    }
     if !tests.contains(technique.test) {
         return Some(format!("no test `{}`", technique.test));
     }
@@ -70,6 +74,7 @@ fn an_entry_that_names_what_does_not_exist_is_found() {
     for broken in [
         Technique { scene: "fade-out", ..sound },
         Technique { take: "faded", ..sound },
+        Technique { module: "threshold::fade_out", ..sound },
         Technique { test: "it_works", ..sound },
         Technique { price: "jitter", ..sound },
         Technique { price: TRUTH, scene: "octaves", take: "linear", ..sound },

@@ -1,12 +1,13 @@
 //! The price list: what each effect of the paper adds to the test of a fragment, on one core.
 //!
-//! A row is a function of fragments that makes thresholds, changes them, and tests alphas against them. To add an effect,
-//! write the function and name the row that it is an addition to.
+//! A row is functions of fragments that make thresholds, change them, and test alphas against them. To add an effect,
+//! write what it does and name the row that it is an addition to.
 
 use super::Effort;
 use super::clock::{Contender, race};
 use super::pool::{Pool, SLICE, WIDE};
 use crate::stats::seed;
+use crate::technique::multisampling::sample_place;
 use crate::technique::stipple::{self, Density};
 use crate::technique::{mask, screen_door};
 use crate::threshold::batch::{Batch, Model, Tier};
@@ -30,9 +31,16 @@ struct Effect {
     source: &'static str,
     /// The row to which it is an addition; itself for none.
     over: &'static str,
+    /// What makes the thresholds of a slice, and what changes them, in turn.
+    make: &'static [Step],
     /// Tests the fragments of a slice; returns how many samples were kept.
-    test: fn(&Fragments, usize, &mut Thresholds) -> u32,
+    test: Test,
+    /// The samples of a fragment.
+    samples: u32,
 }
+
+type Step = fn(&Fragments, usize, &mut Thresholds);
+type Test = fn(&Fragments, usize, &Thresholds) -> u32;
 
 /// Frames over which Eq. 6 spreads thresholds, and samples of alpha-to-coverage, as in the paper's figures.
 const EIGHT: NonZeroU32 = NonZeroU32::new(8).unwrap();
@@ -40,193 +48,87 @@ const EIGHT: NonZeroU32 = NonZeroU32::new(8).unwrap();
 /// The levels of detail over which noise fades in (§7.1).
 const FADE_LEVELS: f32 = 6.0;
 
+const FIXED: Step = |_, _, t| t.fill(FIXED_THRESHOLD as f32);
+const HASHED: Step = |f, slice, t| f.hashed(Variant::Isotropic, slice, t);
+const ANISOTROPIC: Step = |f, slice, t| f.hashed(Variant::Anisotropic, slice, t);
+const ROBUST: Step = |f, slice, t| f.robust(Variant::Isotropic, slice, t);
+const ROBUST_ANISOTROPIC: Step = |f, slice, t| f.robust(Variant::Anisotropic, slice, t);
+const PIXEL: Step = |_, _, t| by_pixel(t, mask::pixel_value);
+const DOOR: Step = |_, _, t| by_pixel(t, screen_door::fixed);
+const RANDOM_DOOR: Step = |_, _, t| {
+    const SIDE: u32 = screen_door::TILE;
+    let mask: [f32; (SIDE * SIDE) as usize] =
+        core::array::from_fn(|k| screen_door::random_mask([k as u32 % SIDE, k as u32 / SIDE], 0));
+    by_pixel(t, |[x, y]| mask[(y % SIDE * SIDE + x % SIDE) as usize]);
+};
+const HASHED_DOOR: Step = |_, slice, t| by_pixel(t, |pixel| screen_door::randomised(pixel, slice as u32));
+const STIPPLE: Step =
+    |_, _, t| by_pixel(t, |pixel| stipple::threshold(Density::High, pixel, FIXED_THRESHOLD as f32));
+
+const REGULAR: Test = |f, slice, _| f.cover(slice, |_| |i| coverage::regular(i, EIGHT));
+const HARDWARE: Test = |f, slice, _| f.cover(slice, |_| |i| mask::hardware_threshold(i, EIGHT));
+const TURNED: Test = |f, slice, t| f.cover(slice, |k| move |i| mask::turned(t[k], i, EIGHT));
+const JITTERED: Test = |f, slice, t| f.cover(slice, |k| move |i| coverage::jittered(t[k], i, EIGHT));
+const DECORRELATED: Test = |f, slice, t| {
+    f.cover(slice, |k| {
+        let [_, first, second, _] = words(k, slice);
+        let xi: [f32; 2] = [first, second].map(open_lattice);
+        move |i| coverage::jittered(t[k], coverage::decorrelated(xi, i, EIGHT), EIGHT)
+    })
+};
+const SHUFFLED: Test = |f, slice, t| {
+    f.cover(slice, |k| {
+        let [_, _, _, word] = words(k, slice);
+        move |i| coverage::jittered(t[k], mask::shuffled(word, i, EIGHT), EIGHT)
+    })
+};
+
+#[rustfmt::skip]
 const EFFECTS: &[Effect] = &[
-    Effect {
-        name: "fixed",
-        source: "§1",
-        over: "fixed",
-        test: |f, slice, t| {
-            t.fill(FIXED_THRESHOLD as f32);
-            f.test(slice, t)
-        },
-    },
-    Effect {
-        name: "stochastic",
-        source: "§4",
-        over: "fixed",
-        test: |f, slice, t| {
-            f.stochastic(slice, t);
-            f.test(slice, t)
-        },
-    },
-    Effect {
-        name: "hashed",
-        source: "Listing 1",
-        over: "fixed",
-        test: |f, slice, t| {
-            f.hashed(Variant::Isotropic, slice, t);
-            f.test(slice, t)
-        },
-    },
-    Effect {
-        name: "hashed, fast sine",
-        source: "Listing 1",
-        over: "fixed",
-        test: |f, slice, t| {
-            f.hashed_fast(slice, t);
-            f.test(slice, t)
-        },
-    },
-    Effect {
-        name: "anisotropic",
-        source: "Listing 2",
-        over: "fixed",
-        test: |f, slice, t| {
-            f.hashed(Variant::Anisotropic, slice, t);
-            f.test(slice, t)
-        },
-    },
-    Effect {
-        name: "robust",
-        source: "not in the paper",
-        over: "fixed",
-        test: |f, slice, t| {
-            f.robust(Variant::Isotropic, slice, t);
-            f.test(slice, t)
-        },
-    },
-    Effect {
-        name: "robust anisotropic",
-        source: "not in the paper",
-        over: "fixed",
-        test: |f, slice, t| {
-            f.robust(Variant::Anisotropic, slice, t);
-            f.test(slice, t)
-        },
-    },
-    Effect {
-        name: "hashed, fade-in",
-        source: "Eqs. 4, 5",
-        over: "hashed",
-        test: |f, slice, t| {
-            f.hashed(Variant::Isotropic, slice, t);
-            f.fade(slice, t);
-            f.test(slice, t)
-        },
-    },
-    Effect {
-        name: "hashed, fade-in by anisotropy",
-        source: "§7.1.1",
-        over: "hashed",
-        test: |f, slice, t| {
-            f.hashed(Variant::Isotropic, slice, t);
-            f.fade_anisotropic(slice, t);
-            f.test(slice, t)
-        },
-    },
-    Effect {
-        name: "hashed, over 8 frames",
-        source: "Eq. 6",
-        over: "hashed",
-        test: |f, slice, t| {
-            f.hashed(Variant::Isotropic, slice, t);
-            stratified(slice, t);
-            f.test(slice, t)
-        },
-    },
-    Effect {
-        name: "alpha to coverage, 8 regular",
-        source: "Eq. 7",
-        over: "fixed",
-        test: |f, slice, _| f.cover(slice, |_, i, _| coverage::regular(i, EIGHT)),
-    },
-    Effect {
-        name: "alpha to coverage, 8 as hardware",
-        source: "§3, §8",
-        over: "fixed",
-        test: |f, slice, _| f.cover(slice, |_, i, _| mask::hardware_threshold(i, EIGHT)),
-    },
-    Effect {
-        name: "alpha to coverage, 8 by pixel",
-        source: "Humus 2009",
-        over: "fixed",
-        test: |f, slice, t| {
-            t.iter_mut().enumerate().for_each(|(k, t)| *t = mask::pixel_value(pixel(k)));
-            f.cover(slice, |k, i, _| mask::turned(t[k], i, EIGHT))
-        },
-    },
-    Effect {
-        name: "hashed, 8 jittered samples",
-        source: "Eq. 8",
-        over: "hashed",
-        test: |f, slice, t| {
-            f.hashed(Variant::Isotropic, slice, t);
-            f.cover(slice, |k, i, _| coverage::jittered(t[k], i, EIGHT))
-        },
-    },
-    Effect {
-        name: "hashed, 8 decorrelated samples",
-        source: "Eq. 9",
-        over: "hashed",
-        test: |f, slice, t| {
-            f.hashed(Variant::Isotropic, slice, t);
-            f.cover(slice, |k, i, xi| coverage::jittered(t[k], coverage::decorrelated(xi, i, EIGHT), EIGHT))
-        },
-    },
-    Effect {
-        name: "hashed, 8 shuffled samples",
-        source: "§3 (Enderton et al. 2010)",
-        over: "hashed",
-        test: |f, slice, t| {
-            f.hashed(Variant::Isotropic, slice, t);
-            f.cover(slice, |k, i, [xi, _]| {
-                coverage::jittered(t[k], mask::shuffled(xi.to_bits(), i, EIGHT), EIGHT)
-            })
-        },
-    },
-    Effect {
-        name: "screen door, fixed",
-        source: "§3",
-        over: "fixed",
-        test: |f, slice, t| {
-            t.iter_mut().enumerate().for_each(|(k, t)| *t = screen_door::fixed(pixel(k)));
-            f.test(slice, t)
-        },
-    },
-    Effect {
-        name: "screen door, hashed",
-        source: "§8.1",
-        over: "fixed",
-        test: |f, slice, t| {
-            let layer = slice as u32;
-            t.iter_mut().enumerate().for_each(|(k, t)| *t = screen_door::randomised(pixel(k), layer));
-            f.test(slice, t)
-        },
-    },
-    Effect {
-        name: "stipple",
-        source: "Ols 2009",
-        over: "fixed",
-        test: |f, slice, t| {
-            let kept = FIXED_THRESHOLD as f32;
-            t.iter_mut()
-                .enumerate()
-                .for_each(|(k, t)| *t = stipple::threshold(Density::High, pixel(k), kept));
-            f.test(slice, t)
-        },
-    },
-    Effect {
-        name: "hashed, fade-in, over 8 frames",
-        source: "§7",
-        over: "hashed",
-        test: |f, slice, t| {
-            f.hashed(Variant::Isotropic, slice, t);
-            stratified(slice, t);
-            f.fade(slice, t);
-            f.test(slice, t)
-        },
-    },
+    row("fixed", "§1", "fixed", &[FIXED]),
+    row("stochastic", "§4", "fixed", &[Fragments::stochastic]),
+    row("hashed", "Listing 1", "fixed", &[HASHED]),
+    row("hashed, fast sine", "Listing 1", "fixed", &[Fragments::hashed_fast]),
+    row("anisotropic", "Listing 2", "fixed", &[ANISOTROPIC]),
+    row("robust", "not in the paper", "fixed", &[ROBUST]),
+    row("robust anisotropic", "not in the paper", "fixed", &[ROBUST_ANISOTROPIC]),
+    row("hashed, fade-in", "Eqs. 4, 5", "hashed", &[HASHED, Fragments::fade]),
+    row("hashed, fade-in by anisotropy", "§7.1.1", "hashed", &[HASHED, Fragments::fade_anisotropic]),
+    row("hashed, over 8 frames", "Eq. 6", "hashed", &[HASHED, stratified]),
+    row("multisampled geometry, 8 places", "§1, §8", "fixed", &[FIXED]).with_samples(Fragments::test_and_cover),
+    row("alpha to coverage, 8 regular", "Eq. 7", "fixed", &[]).with_samples(REGULAR),
+    row("alpha to coverage, 8 as hardware", "§3, §8", "fixed", &[]).with_samples(HARDWARE),
+    row("alpha to coverage, 8 by pixel", "Humus 2009", "fixed", &[PIXEL]).with_samples(TURNED),
+    row("hashed, 8 jittered samples", "Eq. 8", "hashed", &[HASHED]).with_samples(JITTERED),
+    row("hashed, 8 decorrelated samples", "Eq. 9", "hashed", &[HASHED]).with_samples(DECORRELATED),
+    row("hashed, 8 shuffled samples", "§3 (Enderton et al. 2010)", "hashed", &[HASHED]).with_samples(SHUFFLED),
+    row("screen door, fixed", "§3", "fixed", &[DOOR]),
+    row("screen door, random", "§3", "fixed", &[RANDOM_DOOR]),
+    row("screen door, hashed", "§8.1", "fixed", &[HASHED_DOOR]),
+    row("stipple", "Ols 2009", "fixed", &[STIPPLE]),
+    // What the paper combines.
+    row("hashed, over 8 frames, 8 decorrelated samples", "§7.2, §8", "hashed", &[HASHED, stratified]).with_samples(DECORRELATED),
+    row("anisotropic, over 8 frames, fade-in by anisotropy", "§7", "anisotropic", &[ANISOTROPIC, stratified, Fragments::fade_anisotropic]),
 ];
+
+impl Effect {
+    /// The same with eight samples a fragment.
+    const fn with_samples(self, test: Test) -> Self {
+        Self { test, samples: EIGHT.get(), ..self }
+    }
+
+    /// Returns the share of the samples of a slice that is kept.
+    fn kept(&self, fragments: &Fragments, slice: usize, thresholds: &mut Thresholds) -> f64 {
+        self.make.iter().for_each(|step| step(fragments, slice, thresholds));
+        let kept = (self.test)(fragments, slice, thresholds);
+        f64::from(kept) / f64::from(self.samples) / SLICE as f64
+    }
+}
+
+/// One test a fragment.
+const fn row(name: &'static str, source: &'static str, over: &'static str, make: &'static [Step]) -> Effect {
+    Effect { name, source, over, make, test: |f, slice, t| f.test(slice, t), samples: 1 }
+}
 
 /// Fragments in slices.
 struct Fragments {
@@ -290,15 +192,27 @@ impl Fragments {
         }
     }
 
-    /// Tests eight samples a fragment against thresholds of their own, which may ask for two random numbers a fragment.
-    fn cover(&self, slice: usize, threshold: impl Fn(usize, u32, [f32; 2]) -> f32) -> u32 {
-        let of_fragment = |k: usize| -> u32 {
-            let words = pcg4d([k as u32, slice as u32, 0, 0]);
-            let xi = [open_lattice(words[0]), open_lattice(words[1])];
-            let alpha = self.alpha(slice, k);
-            (0..EIGHT.get()).map(|i| u32::from(passes(alpha, threshold(k, i, xi)))).sum()
+    /// Tests eight samples a fragment against thresholds of their own, which the fragment's function makes of them.
+    fn cover<S: Fn(u32) -> f32>(&self, slice: usize, of_fragment: impl Fn(usize) -> S) -> u32 {
+        let covered = |k: usize| -> u32 {
+            let (alpha, threshold) = (self.alpha(slice, k), of_fragment(k));
+            (0..EIGHT.get()).map(|i| u32::from(passes(alpha, threshold(i)))).sum()
         };
-        (0..SLICE).map(of_fragment).sum()
+        (0..SLICE).map(covered).sum()
+    }
+
+    /// Tests alpha once and geometry at eight places: three edges of a triangle, of which one cuts each pixel in half.
+    fn test_and_cover(&self, slice: usize, thresholds: &Thresholds) -> u32 {
+        let places: [[f32; 2]; EIGHT.get() as usize] =
+            core::array::from_fn(|i| sample_place(i as u32, EIGHT).map(|c| c as f32));
+        let covered = |(k, &threshold): (usize, &f32)| -> u32 {
+            let [a, b] = self.lengths[(k + 977 * slice) % SLICE];
+            let edges = [[a, b, 0.0], [b, -a, 2.0], [-b, a, 2.0]];
+            let is_inside = |[x, y]: &[f32; 2]| edges.iter().all(|[a, b, c]| a * x + b * y + c > 0.0);
+            let inside = places.iter().map(|place| u32::from(is_inside(place))).sum();
+            if passes(self.alpha(slice, k), threshold) { inside } else { 0 }
+        };
+        thresholds.iter().enumerate().map(covered).sum()
     }
 }
 
@@ -307,7 +221,16 @@ fn pixel(fragment: usize) -> [u32; 2] {
     [fragment as u32 % 64, fragment as u32 / 64]
 }
 
-fn stratified(frame: usize, thresholds: &mut Thresholds) {
+fn by_pixel(thresholds: &mut Thresholds, threshold: impl Fn([u32; 2]) -> f32) {
+    thresholds.iter_mut().enumerate().for_each(|(k, t)| *t = threshold(pixel(k)));
+}
+
+/// Random numbers of a fragment.
+fn words(fragment: usize, slice: usize) -> [u32; 4] {
+    pcg4d([fragment as u32, slice as u32, 0, 0])
+}
+
+fn stratified(_: &Fragments, frame: usize, thresholds: &mut Thresholds) {
     let frame = frame as u32 % EIGHT;
     thresholds.iter_mut().for_each(|t| *t = stratify::stratified(*t, frame, EIGHT));
 }
@@ -349,7 +272,7 @@ pub fn prices(effort: Effort, done: &dyn Fn()) -> Vec<Price> {
         .iter()
         .map(|effect| {
             let mut thresholds = vec![0.0; SLICE];
-            let run = move |slice| f64::from((effect.test)(fragments, slice, &mut thresholds));
+            let run = move |slice| effect.kept(fragments, slice, &mut thresholds);
             Contender {
                 items: SLICE,
                 run: Box::new(run),
@@ -423,12 +346,14 @@ mod tests {
         let fragments = Fragments::new(2);
         for effect in EFFECTS {
             let mut thresholds = vec![0.0; SLICE];
-            let kept = f64::from((effect.test)(&fragments, 1, &mut thresholds));
-            let samples = if effect.name.contains("8 ") && !effect.name.contains("frames") { 8 } else { 1 };
-            let share = kept / f64::from(samples) / SLICE as f64;
-            // Hardware keeps `floor` of 8 alpha, half a sample less; the stipple a quarter less; the listing is NaN nowhere
-            // here.
-            let expected = if effect.name == "stipple" { 0.375 } else { 0.5 };
+            let share = effect.kept(&fragments, 1, &mut thresholds);
+            // Hardware keeps `floor` of 8 alpha, half a sample less; the stipple a quarter less; edges cut pixels in half; the
+            // listing is NaN nowhere here.
+            let expected = match effect.name {
+                "stipple" => 0.375,
+                "multisampled geometry, 8 places" => 0.25,
+                _ => 0.5,
+            };
             assert!((share - expected).abs() < 0.08, "{}: {share}", effect.name);
         }
     }

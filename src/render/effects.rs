@@ -146,7 +146,11 @@ pub fn check(effects: &Effects) -> Result<(), String> {
         if (0.0..=1.0).contains(&value) { Ok(()) } else { Err(format!("`{what}` must be in [0, 1]")) }
     };
     let positive = |what: &str, value: f64| {
-        if value.is_finite() && value > 0.0 { Ok(()) } else { Err(format!("`{what}` must be above 0")) }
+        if value.is_finite() && value > 0.0 {
+            Ok(())
+        } else {
+            Err(format!("`{what}` must be a finite number above 0"))
+        }
     };
     if let Some(fixed) = &effects.fixed {
         unit("fixed.threshold", f64::from(fixed.threshold))?;

@@ -2,7 +2,7 @@
 
 use super::effects::{self, Effects};
 use super::expect::Expectation;
-use super::mistake::{nearest, place, suggest};
+use super::mistake::{nearest, place, plain, suggest};
 use super::procedural::{Checkerboard, Constant, Hair, Leaves, Ramp, Wire};
 use super::surface::Surface;
 use super::texture::{Filter, Wrap};
@@ -11,7 +11,7 @@ use core::fmt;
 use core::num::NonZeroU32;
 use core::ops::Range;
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
-use serde::de::{MapAccess, SeqAccess, Visitor};
+use serde::de::{IgnoredAny, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 use std::path::PathBuf;
 
@@ -277,10 +277,31 @@ pub fn read(text: &str, file: &str) -> Result<SceneFile, FileError> {
     };
     let scene: SceneFile = toml::from_str(text).map_err(|error| {
         let message = error.message().trim().replace('\n', "; ");
-        at(error.span(), suggest(&message).unwrap_or(message))
+        at(error.span(), suggest(&message).unwrap_or_else(|| plain(&message)))
     })?;
     check(&scene).map_err(|(span, message)| at(span, message))?;
+    if let Takes::Sets(sets) = &scene.effects {
+        for (index, set) in sets.iter().enumerate() {
+            effects::check(set).map_err(|message| at(place_of_take(text, index), message))?;
+        }
+    }
     Ok(scene)
+}
+
+/// Where a take begins in the text of its file.
+fn place_of_take(text: &str, index: usize) -> Option<Range<usize>> {
+    #[derive(Deserialize)]
+    struct Takes {
+        effects: toml::Spanned<IgnoredAny>,
+    }
+    #[derive(Deserialize)]
+    struct Sets {
+        effects: Vec<toml::Spanned<IgnoredAny>>,
+    }
+    match toml::from_str::<Sets>(text) {
+        Ok(Sets { effects }) => effects.get(index).map(toml::Spanned::span),
+        Err(_) => toml::from_str::<Takes>(text).ok().map(|takes| takes.effects.span()),
+    }
 }
 
 type Wrong = (Option<Range<usize>>, String);
@@ -340,11 +361,6 @@ fn check(scene: &SceneFile) -> Result<(), Wrong> {
         && !distance.factors.iter().all(|factor| factor.is_finite() && *factor > 0.0)
     {
         return wrong("`distance.factors` must be above 0".to_owned());
-    }
-    if let Takes::Sets(sets) = &scene.effects {
-        for set in sets {
-            effects::check(set).map_err(|message| (None, message))?;
-        }
     }
     Ok(())
 }

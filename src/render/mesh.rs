@@ -73,12 +73,25 @@ impl Object {
 
 impl Mesh {
     /// Returns for each triangle the number of the part that it belongs to: triangles of an object that share a corner are
-    /// of one part, however many vertices that corner has.
+    /// of one part, however many vertices that corner has, and whatever the unit of length.
+    ///
+    /// Corners are one that differ by no more than four spacings of `f32` at the object's largest coordinate, as rounding
+    /// leaves them.
     #[must_use]
     pub fn parts(&self) -> Vec<u32> {
-        /// Corners nearer than this are one, in object units.
-        const WELD: f64 = 1.0e-6;
-        let mut corners: FxHashMap<(u32, [i64; 3]), u32> = FxHashMap::default();
+        /// Side of the cells that corners share, over the largest coordinate: what is at most half of it apart is in one
+        /// cell of some grid below.
+        const CELL: f64 = 8.0 * f32::EPSILON as f64;
+        /// Grids that are half a cell apart, along each axis.
+        const GRIDS: u32 = 8;
+        let mut largest = vec![0.0_f64; self.objects.len()];
+        let place = |corner: u32| self.vertices[corner as usize].object;
+        for triangle in &self.triangles {
+            let reach = triangle.corners.map(|corner| place(corner).abs().max_element());
+            let of_object = &mut largest[triangle.object as usize];
+            *of_object = reach.into_iter().fold(*of_object, f64::max);
+        }
+        let mut corners: FxHashMap<(u32, u32, [i32; 3]), u32> = FxHashMap::default();
         // Each triangle points to one of its part that came earlier, or to itself.
         let mut parents: Vec<u32> = (0..self.triangles.len() as u32).collect();
         fn root(parents: &mut [u32], mut of: u32) -> u32 {
@@ -90,10 +103,11 @@ impl Mesh {
             of
         }
         for (index, triangle) in self.triangles.iter().enumerate() {
-            for corner in triangle.corners {
-                let place = self.vertices[corner as usize].object / WELD;
-                let key = (triangle.object, place.to_array().map(|c| c.round() as i64));
-                let met = *corners.entry(key).or_insert(index as u32);
+            let side = (CELL * largest[triangle.object as usize]).max(f64::MIN_POSITIVE);
+            for (corner, grid) in triangle.corners.into_iter().flat_map(|c| (0..GRIDS).map(move |g| (c, g))) {
+                let shift = DVec3::from([0, 1, 2].map(|axis| 0.5 * f64::from(grid >> axis & 1)));
+                let cell = (place(corner) / side + shift).floor().to_array().map(|c| c as i32);
+                let met = *corners.entry((triangle.object, grid, cell)).or_insert(index as u32);
                 let [a, b] = [met, index as u32].map(|triangle| root(&mut parents, triangle));
                 parents[a.max(b) as usize] = a.min(b);
             }
@@ -116,22 +130,51 @@ mod tests {
     use super::*;
     use glam::{dvec2, dvec3};
 
-    #[test]
-    fn triangles_that_share_a_corner_are_of_one_part() {
+    /// Panels side by side up to rounding, one apart, one in the same place of another object.
+    fn panels(scale: f64) -> Mesh {
         let mut mesh = Mesh::default();
+        let still = Object { to_world: DAffine3::IDENTITY, drift: DVec3::ZERO, spin: 0.0, sway: [0.0; 2] };
+        mesh.objects = vec![still; 2];
         let corner = |x: f64, y: f64| {
-            let object = dvec3(x, y, 0.1);
+            let object = scale * dvec3(x, y, 0.1);
             Vertex { object, part: object, texcoord: dvec2(x, y) }
         };
-        // Two panels side by side, up to rounding; one apart; one in the same place of another object.
-        for (left, object) in [(0.0, 0), (0.1 + 0.2, 0), (5.0, 0), (0.0, 1)] {
-            let right = if left == 0.0 { 0.3 } else { left + 0.3 };
-            mesh.quad(
-                [corner(left, 0.0), corner(right, 0.0), corner(right, 1.0), corner(left, 1.0)],
-                object,
-                0,
-            );
+        let rounded = f64::from((0.3 * scale) as f32) / scale;
+        for (left, right, object) in
+            [(0.0, 0.3, 0), (rounded, 0.6, 0), (0.601, 0.9, 0), (5.0, 5.3, 0), (0.0, 0.3, 1)]
+        {
+            let corners = [[left, 0.0], [right, 0.0], [right, 1.0], [left, 1.0]].map(|[x, y]| corner(x, y));
+            mesh.quad(corners, object, 0);
         }
-        assert_eq!(mesh.parts(), [0, 0, 0, 0, 4, 4, 6, 6]);
+        mesh
+    }
+
+    #[test]
+    fn triangles_that_share_a_corner_are_of_one_part_in_every_unit() {
+        for scale in [1e-30, 1e-4, 0.37, 1.0, 1e4, 1e30] {
+            assert_eq!(panels(scale).parts(), [0, 0, 0, 0, 4, 4, 6, 6, 8, 8], "{scale}");
+        }
+    }
+
+    /// Wherever the borders of cells are: corners that rounding has moved are one, those that lie apart are not.
+    #[test]
+    fn corners_are_one_as_far_as_rounding_goes() {
+        let spacing = 1.0 / f64::from(1_u32 << 23);
+        for start in 0..200 {
+            let start = 0.3 + 0.37 * f64::from(start) * spacing;
+            for (apart, is_one) in [(3.9, true), (-3.9, true), (8.1, false)] {
+                let mut mesh = panels(1.0);
+                mesh.triangles.truncate(4);
+                for (index, vertex) in mesh.vertices.iter_mut().enumerate() {
+                    vertex.object.x = match index {
+                        1 | 2 => start,
+                        4 | 7 => start + apart * spacing,
+                        _ => vertex.object.x,
+                    };
+                }
+                let parts = mesh.parts();
+                assert_eq!(parts[0] == parts[2], is_one, "{start} {apart}");
+            }
+        }
     }
 }

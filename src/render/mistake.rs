@@ -22,6 +22,13 @@ pub(super) fn suggest(message: &str) -> Option<String> {
     Some(format!("{what} `{wrong}`.{likely} Known here: {known}"))
 }
 
+/// Says in the words of a scene file which numbers are expected.
+pub(super) fn plain(message: &str) -> String {
+    message
+        .replace("a nonzero u32", "a whole number from 1 to 4294967295")
+        .replace("expected usize", "expected a whole number from 0 on")
+}
+
 /// The known word with the fewest edits, if they are fewer than half of its letters.
 pub(super) fn nearest<'a>(wrong: &str, known: &[&'a str]) -> Option<&'a str> {
     let (edits, near) = known.iter().map(|near| (edits(wrong, near), *near)).min()?;

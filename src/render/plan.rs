@@ -153,7 +153,7 @@ pub fn plan(effects: &Effects) -> Plan {
             layer: permuted || stages.contains(&Stage::ScreenDoor(Door::Hashed)),
             lod: effects.fade_in.is_some(),
             samples: multisamples,
-            frame: [effects.temporal.is_some(), effects.stochastic.is_some(), permuted]
+            frame: [effects.temporal.is_some(), effects.stochastic.is_some()]
                 .into_iter()
                 .chain([effects.independent.is_some(), effects.jitter.is_some()])
                 .chain(effects.occlusion.map(|occlusion| occlusion.chi == Chi::Random))
@@ -310,6 +310,15 @@ impl Plan {
     #[must_use]
     pub fn mixes(&self) -> bool {
         self.stages.iter().any(|stage| matches!(stage, Stage::History(_) | Stage::Average(_)))
+    }
+
+    /// Returns whether the thresholds of a still scene change from frame to frame. Otherwise the strata of samples do not
+    /// either: Eq. 9 hashes them.
+    #[must_use]
+    pub fn changes(&self) -> bool {
+        let changes =
+            |stage: &Stage| matches!(stage, Stage::Stochastic | Stage::Stratify(..) | Stage::Independent(..));
+        self.stages.iter().any(changes)
     }
 
     /// Returns how far the image is moved in a frame, in pixels of the places.

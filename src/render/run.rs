@@ -385,10 +385,12 @@ impl Draw<'_> {
         [left + pixel % TILE, top + pixel / TILE]
     }
 
-    /// Four words that belong to one fragment of one frame: the twin of the shader's `fragment_words`.
+    /// Four words that belong to one fragment, and to its frame if thresholds do: the twin of the shader's
+    /// `fragment_words`.
     fn words(&self, fragments: &Fragments, tile: usize, at: usize) -> [u32; 4] {
         let [x, y] = self.place(fragments, tile, at);
-        pcg4d([x, y, self.frame, u32::from(fragments.layer[at])])
+        let frame = if self.plan.changes() { self.frame } else { 0 };
+        pcg4d([x, y, frame, u32::from(fragments.layer[at])])
     }
 
     fn fade(&self, work: &mut Work, table: &FadeIn) {

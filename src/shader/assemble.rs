@@ -80,9 +80,9 @@ pub struct Coverage {
 pub enum Strata {
     /// The same in every pixel and layer (Eq. 8).
     InOrder,
-    /// An offset and a step for each pixel, frame and layer (Eq. 9).
+    /// An offset and a step for each pixel and layer, and for each frame if the threshold reads it (Eq. 9).
     Decorrelated,
-    /// A permutation for each pixel, frame and layer, any of them (§3, Enderton et al. 2010).
+    /// The same with any permutation (§3, Enderton et al. 2010).
     Shuffled,
 }
 
@@ -143,6 +143,7 @@ impl ShaderOptions {
         let footprint = matches!(self.source, Source::Listing(_) | Source::Robust(_));
         let permuted = self.coverage.is_some_and(|coverage| coverage.strata != Strata::InOrder);
         let fresh = self.source == Source::Stochastic || permuted;
+        let changes = self.source == Source::Stochastic || self.stratify.is_some();
         let by_pixel =
             matches!(self.source, Source::ScreenDoor(_) | Source::PixelMask(_) | Source::Stipple(_));
         let random_door = self.source == Source::ScreenDoor(ScreenDoor::Randomised);
@@ -155,7 +156,7 @@ impl ShaderOptions {
             (footprint, DPDY),
             (footprint && self.hash_scale.is_none(), HASH_SCALE),
             (fresh || by_pixel, PIXEL),
-            (fresh || self.stratify.is_some(), FRAME),
+            (changes, FRAME),
             (fresh || random_door, LAYER),
             (sampled, SAMPLE_INDEX),
             (self.fade_in.is_some(), LOD),
@@ -270,6 +271,8 @@ impl Text {
         }
         if let Some(Coverage { samples, strata }) = options.coverage {
             self.stable_or_literal(literal, JITTERED);
+            // Hashed thresholds stay from frame to frame, and so must the strata of their samples.
+            let frame = if options.parameters().contains(&FRAME) { "frame" } else { "0u" };
             if strata != Strata::InOrder {
                 add!(self, "integral_word", "pcg_4d", "fragment_words");
             }
@@ -278,11 +281,11 @@ impl Text {
                 Strata::Decorrelated => {
                     add!(self, "open_lattice", "fragment_pair");
                     self.stable_or_literal(literal, DECORRELATED);
-                    format!("decorrelated(fragment_pair(pixel, frame, layer), sample_index, {samples}u)")
+                    format!("decorrelated(fragment_pair(pixel, {frame}, layer), sample_index, {samples}u)")
                 }
                 Strata::Shuffled => {
                     add!(self, "pcg", "mask/shuffled");
-                    format!("shuffled(fragment_words(pixel, frame, layer).w, sample_index, {samples}u)")
+                    format!("shuffled(fragment_words(pixel, {frame}, layer).w, sample_index, {samples}u)")
                 }
             };
             stages.push(format!("jittered(value, {sample}, {samples}u)"));

@@ -1,9 +1,8 @@
 //! Other samples, stochastic transparency and the results: §9 to §12.
 
 use crate::maps::{Map, leaves, noise};
-use crate::measure::{CHIS, Plane, list, listing, mean, percent, rms, share, value, visible};
+use crate::measure::{CHIS, Plane, list, listing, mean, n, percent, rms, share, value, visible};
 use crate::row::{Measured, Row, judge};
-use core::num::NonZeroU32;
 use glam::{DVec3, vec3};
 use hashed_alpha::stats::chi_square;
 use hashed_alpha::stats::correlation::{pair_table, pearson};
@@ -146,10 +145,6 @@ pub const ROWS: &[Row] = &[
         measure: foveated,
     },
 ];
-
-fn n(samples: u32) -> NonZeroU32 {
-    NonZeroU32::new(samples).expect("not 0")
-}
 
 fn chi(variant: Variant, plane: &Plane, x: f64, y: f64) -> [f32; 2] {
     chi_by_two_hashes(variant, &plane.at(x, y).cast::<f32>())

@@ -1,5 +1,6 @@
 //! What several rows measure with.
 
+use core::num::NonZeroU32;
 use glam::{DQuat, DVec3, dvec3};
 use hashed_alpha::check::subject::Precision;
 use hashed_alpha::check::{Draw, Outcome, Subject, Verdict, claims, run_claims};
@@ -13,6 +14,16 @@ use hashed_alpha::threshold::two_scale::Variant;
 /// A uniform value that belongs to four words.
 pub fn value(words: [u32; 4]) -> f64 {
     open_lattice(murmur3(words))
+}
+
+/// A number of samples, frames or strata.
+pub fn n(samples: u32) -> NonZeroU32 {
+    NonZeroU32::new(samples).expect("not 0")
+}
+
+/// Thresholds in the middle of equal parts of (0, 1).
+pub fn chis() -> impl Iterator<Item = f64> {
+    (0..CHIS).map(|i| (f64::from(i) + 0.5) / f64::from(CHIS))
 }
 
 /// The share of a sequence that is true.
@@ -116,8 +127,7 @@ pub fn answer(outcome: &Outcome) -> String {
 
 /// The mean range within which the exponential average (weight 0.1) of a cycle of eight frames moves for ever.
 pub fn flicker(alpha: f64, threshold: impl Fn(f64, u32) -> f64) -> f64 {
-    mean((0..CHIS).map(|i| {
-        let chi = (f64::from(i) + 0.5) / f64::from(CHIS);
+    mean(chis().map(|chi| {
         let frames: Vec<f64> = (0..8).map(|frame| visible(alpha, threshold(chi, frame))).collect();
         flicker_range(&frames, 0.1)
     }))

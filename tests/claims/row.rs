@@ -23,6 +23,11 @@ impl Verdict {
             Self::Refuted => "refuted",
         }
     }
+
+    /// The end of a line with this verdict.
+    pub fn at_end(self) -> String {
+        format!("| {} |", self.name())
+    }
 }
 
 /// What a measurement found.
@@ -64,13 +69,7 @@ pub struct Source {
 pub fn line(row: &Row, measured: &Measured) -> String {
     let mut line = String::new();
     let Measured { n, verdict, seen } = measured;
-    let _ = write!(
-        line,
-        "| `{}` | {} | {} | {seen} | {n} | {} |",
-        row.id,
-        row.place,
-        row.sentence,
-        verdict.name()
-    );
+    let _ =
+        write!(line, "| `{}` | {} | {} | {seen} | {n} {}", row.id, row.place, row.sentence, verdict.at_end());
     line
 }
