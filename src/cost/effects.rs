@@ -103,12 +103,12 @@ const EFFECTS: &[Effect] = &[
     row("hashed, 8 decorrelated samples", "Eq. 9", "hashed", &[HASHED]).with_samples(DECORRELATED),
     row("hashed, 8 shuffled samples", "§3 (Enderton et al. 2010)", "hashed", &[HASHED]).with_samples(SHUFFLED),
     row("screen door, fixed", "§3", "fixed", &[DOOR]),
-    row("screen door, random", "§3", "fixed", &[RANDOM_DOOR]),
+    row("screen door, random mask", "§8.1", "fixed", &[RANDOM_DOOR]),
     row("screen door, hashed", "§8.1", "fixed", &[HASHED_DOOR]),
     row("stipple", "Ols 2009", "fixed", &[STIPPLE]),
     // What the paper combines.
     row("hashed, over 8 frames, 8 decorrelated samples", "§7.2, §8", "hashed", &[HASHED, stratified]).with_samples(DECORRELATED),
-    row("anisotropic, over 8 frames, fade-in by anisotropy", "§7", "anisotropic", &[ANISOTROPIC, stratified, Fragments::fade_anisotropic]),
+    row("anisotropic, fade-in, over 8 frames", "§7", "anisotropic", &[ANISOTROPIC, stratified, Fragments::fade]),
 ];
 
 impl Effect {
