@@ -298,7 +298,7 @@ pub const ALL: &[Technique] = &[
         "reprojected-history",
         "§7.2 (Karis 2014)",
         "technique::history",
-        "The average is looked up where the motion of the camera has left it, and leaves no ghosts of still surfaces.",
+        "The average is looked up where the motion of the camera has left it, and follows surfaces; what they uncover keeps a ghost.",
     )
     .seen("temporal-ghosts", "phase-rotated, reprojected", "history")
     .tested("surfaces_are_found_where_they_were"),
