@@ -93,7 +93,7 @@ mod tests {
         };
         let dots = |shift: u32| {
             let mut picture = Picture::sky(size);
-            for at in (0..picture.coverage.len()).filter(|at| (at % 24 + shift as usize) % 5 == 0) {
+            for at in (0..picture.coverage.len()).filter(|at| (at % 24 + shift as usize).is_multiple_of(5)) {
                 picture.coverage[at] = 1.0;
             }
             picture
@@ -108,7 +108,7 @@ mod tests {
     #[test]
     fn history_is_found_where_the_camera_has_left_it() {
         let error = |average: &Picture| -> f32 {
-            let right = |at: usize| if (at % 24 + 3) % 5 == 0 { 1.0 } else { 0.0 };
+            let right = |at: usize| if (at % 24 + 3).is_multiple_of(5) { 1.0 } else { 0.0 };
             (0..24 * 12).map(|at| (average.coverage[at] - right(at)).abs()).fold(0.0, f32::max)
         };
         assert!(error(&after_two(3.0, DVec2::ZERO)) < 1e-6);
