@@ -24,6 +24,7 @@ use hashed_alpha::render::texture::{Access, Texture};
 use hashed_alpha::technique::{ALL, TRUTH};
 use hashed_alpha::threshold::batch::Batch;
 use hashed_alpha::threshold::cdf::CdfForm;
+use hashed_alpha::threshold::fade_in::clamp_last;
 use hashed_alpha::threshold::hash::HashKind;
 use hashed_alpha::threshold::hashed::HashedAlpha;
 use hashed_alpha::threshold::two_scale::Variant;
@@ -102,7 +103,9 @@ fn by_hand(scene: &Scene, textures: &[Texture], hashed: Option<&HashedAlpha<Hash
         let Columns { fragments, access, alpha, threshold } = columns;
         let mut pixels = vec![(SKY, 0.0_f32); (TILE * TILE) as usize];
         screen.fragments(tile, fragments);
-        (access.clear(), alpha.clear(), threshold.clear());
+        access.clear();
+        alpha.clear();
+        threshold.clear();
         let mut texels = 0;
         for at in 0..fragments.len() {
             let texture = texture(fragments.triangle[at]);
@@ -112,8 +115,8 @@ fn by_hand(scene: &Scene, textures: &[Texture], hashed: Option<&HashedAlpha<Hash
         }
         threshold.resize(fragments.len(), 0.5);
         if let Some(hashed) = hashed {
-            Batch::new((*hashed).into()).thresholds(&fragments.footprint.columns(), threshold);
-            threshold.iter_mut().for_each(|threshold| *threshold = threshold.clamp(1.0 / 16_777_216.0, 1.0));
+            Batch::new(*hashed).thresholds(&fragments.footprint.columns(), threshold);
+            threshold.iter_mut().for_each(|threshold| *threshold = clamp_last(*threshold));
         }
         let mut nearest = vec![u32::MAX; pixels.len()];
         for at in (0..fragments.len()).filter(|&at| alpha[at] >= threshold[at]) {
@@ -141,6 +144,7 @@ fn by_hand(scene: &Scene, textures: &[Texture], hashed: Option<&HashedAlpha<Hash
     picture
 }
 
+#[expect(clippy::print_stdout, reason = "criterion has no place for ratios")]
 fn absent(criterion: &mut Criterion) {
     let scene = fence();
     let shot = shots(&scene)[0];

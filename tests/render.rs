@@ -127,7 +127,7 @@ fn surfaces_of_every_kind_are_seen() {
     ] {
         let text = format!(
             "name = 'surface'\nresolution = [60, 45]\n[camera]\neye = [0.3, 1.5, 3.0]\ntarget = [0.0, 0.1, 0.0]\n\
-             [[texture]]\nname = 'leaf'\nleaves = {{}}\n[[surface]]\n{texture}\n{surface}\n"
+             [[texture]]\nname = 'leaf'\nconstant = {{ alpha = 1.0 }}\n[[surface]]\n{texture}\n{surface}\n"
         );
         let coverage = |text: &str| {
             let file = file::read(text, "surface.toml").unwrap_or_else(|error| panic!("{error}"));
