@@ -1,8 +1,9 @@
 //! What is measured of pictures.
 
 use super::file::{DepthBuffer, Region};
+use super::layers::LayerSums;
 use super::picture::Picture;
-use super::run::{Frame, LayerSums};
+use super::run::Frame;
 use super::study::Shot;
 use super::view::Cause;
 use crate::technique::foveated::Gaze;

@@ -15,7 +15,7 @@
 //! | [`run`], [`truth`] | a frame by a plan, and as it should be |
 //! | [`occlusion`] | rays, and what is in their way |
 //! | [`sub_pixel`] | thresholds of what covers a part of its pixel |
-//! | [`study`], [`metrics`], [`expect`] | all takes of a scene, what is measured, what must come out |
+//! | [`study`], [`metrics`], [`layers`], [`expect`] | all takes of a scene, what is measured, what must come out |
 //! | [`depth`] | the depth buffer, and a smaller one made of it |
 //! | [`picture`] | images side by side, differences, sequences |
 //! | [`gallery`] | the figures of the sources as scenes |
@@ -33,6 +33,7 @@ pub mod fragments;
 pub mod gallery;
 pub mod gltf_file;
 pub mod image_file;
+pub mod layers;
 pub mod mesh;
 pub mod metrics;
 mod mistake;
@@ -42,7 +43,9 @@ pub mod plan;
 mod plan_shader;
 pub mod prepare;
 pub mod procedural;
+mod project;
 pub mod rasterise;
+mod resolve;
 pub mod run;
 pub mod stage;
 pub mod study;

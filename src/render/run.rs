@@ -3,8 +3,9 @@
 use super::cost::Cost;
 use super::depth::Depth;
 use super::fragments::Fragments;
+use super::layers::{LayerSums, layer_sums};
 use super::occlusion::{self, Occluders};
-use super::picture::{LEAF, Picture, SKY};
+use super::picture::{Picture, SKY};
 use super::plan::Plan;
 use super::prepare::Scene;
 use super::rasterise::{Screen, TILE};
@@ -18,9 +19,9 @@ use crate::technique::blend_towards::blend_towards;
 use crate::technique::independent::{ByFrame, by_offset};
 use crate::technique::mask::{hardware_threshold, pixel_value, shuffled, turned};
 use crate::technique::order::Order;
-use crate::technique::remedies::test_then_blend::{Layer, naive, test_then_blend};
+use crate::technique::remedies::test_then_blend::{naive, test_then_blend};
+use crate::technique::screen_door;
 use crate::technique::stipple::{self, Density};
-use crate::technique::{premultiplied, screen_door};
 use crate::threshold::batch::{Batch, Model};
 use crate::threshold::coverage::{decorrelated, jittered, regular};
 use crate::threshold::fade_in::{anisotropy, blend, clamp_last};
@@ -53,43 +54,34 @@ pub struct Frame {
     pub depth: Option<Depth>,
 }
 
-/// Sums over the pixels in which two layers or more have an alpha between 0 and 1, the first two by distance.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct LayerSums {
-    /// Of the products of what each shows beyond its alpha.
-    pub covariance: f64,
-    /// Of the products of the standard deviations that a fair test would have.
-    pub deviation: f64,
-}
-
 /// Which of the 16! masks a random screen door has.
 pub(super) const DOOR_SEED: u32 = 0;
 
-const PIXELS: usize = (TILE * TILE) as usize;
-const NONE: u32 = u32::MAX;
+pub(super) const PIXELS: usize = (TILE * TILE) as usize;
+pub(super) const NONE: u32 = u32::MAX;
 
 /// What one tile becomes.
-struct TileResult {
-    colour: Vec<[f32; 3]>,
-    coverage: Vec<f32>,
+pub(super) struct TileResult {
+    pub(super) colour: Vec<[f32; 3]>,
+    pub(super) coverage: Vec<f32>,
     touched: Vec<bool>,
     cost: Cost,
     layers: LayerSums,
-    rays: Vec<[u16; 2]>,
+    pub(super) rays: Vec<[u16; 2]>,
     /// Of no length unless asked for.
-    depth: Vec<f32>,
+    pub(super) depth: Vec<f32>,
 }
 
 /// Columns beside those of the fragments, kept from tile to tile for their room.
 #[derive(Default)]
-struct Work {
-    fragments: Fragments,
-    access: Vec<Access>,
-    alpha: Vec<f32>,
+pub(super) struct Work {
+    pub(super) fragments: Fragments,
+    pub(super) access: Vec<Access>,
+    pub(super) alpha: Vec<f32>,
     /// One threshold a fragment, or one a sample.
     threshold: Vec<f32>,
     /// The samples of each fragment that are kept, a bit each.
-    kept: Vec<u64>,
+    pub(super) kept: Vec<u64>,
 }
 
 /// Draws a frame of a shot. The bits do not depend on the number of threads.
@@ -155,11 +147,11 @@ pub fn frame(scene: &Scene, textures: &[Texture], plan: &Plan, shot: &Shot, inde
 }
 
 /// What all tiles of a frame share.
-struct Draw<'a> {
+pub(super) struct Draw<'a> {
     scene: &'a Scene,
     textures: &'a [Texture],
-    plan: &'a Plan,
-    screen: &'a Screen,
+    pub(super) plan: &'a Plan,
+    pub(super) screen: &'a Screen,
     frame: u32,
     camera: &'a Camera,
     /// What rays may hit, if there are any.
@@ -171,7 +163,7 @@ impl Draw<'_> {
         self.scene.file.depth.is_some() || self.plan.needs.depth
     }
 
-    fn texture(&self, triangle: u32) -> &Texture {
+    pub(super) fn texture(&self, triangle: u32) -> &Texture {
         &self.textures[self.scene.mesh.triangles[triangle as usize].texture as usize]
     }
 
@@ -443,80 +435,6 @@ impl Draw<'_> {
             result.cost += occlusion::cost(table, 1);
         }
     }
-
-    fn resolve(&self, work: &Work, divide: bool, result: &mut TileResult) {
-        let samples = self.plan.samples as usize;
-        let mut nearest = vec![NONE; PIXELS * samples];
-        for (at, &kept) in work.kept.iter().enumerate() {
-            let pixel = usize::from(work.fragments.pixel[at]);
-            let depth = work.fragments.depth[at];
-            for sample in (0..samples).filter(|sample| kept >> sample & 1 == 1) {
-                let held = &mut nearest[pixel * samples + sample];
-                if *held == NONE || depth < work.fragments.depth[*held as usize] {
-                    *held = at as u32;
-                }
-            }
-        }
-        for (depth, held) in result.depth.iter_mut().zip(nearest.chunks_exact(samples)) {
-            *depth = work.fragments.depth.get(held[0] as usize).copied().unwrap_or(f32::INFINITY);
-        }
-        let share = 1.0 / samples as f32;
-        for (pixel, held) in nearest.chunks_exact(samples).enumerate() {
-            let covered = held.iter().filter(|&&at| at != NONE).count();
-            if covered == 0 {
-                continue;
-            }
-            // Surfaces have the light that their ray finds, all of it without one.
-            let light = result.rays.get(pixel).map_or(1.0, |[_, open]| f32::from(*open));
-            let mut colour = SKY.map(|c| c * (samples - covered) as f32);
-            let mut last = (NONE, [0.0; 3]);
-            for &at in held.iter().filter(|&&at| at != NONE) {
-                if at != last.0 {
-                    last = (at, self.colour(work, at as usize, divide));
-                }
-                colour = [0, 1, 2].map(|c| colour[c] + light * last.1[c]);
-            }
-            result.colour[pixel] = colour.map(|sum| sum * share);
-            result.coverage[pixel] = covered as f32 * share;
-        }
-    }
-
-    /// Draws pixels as `drawn` makes them of their fragments, in the order in which they come, and the background.
-    fn blend(&self, work: &Work, drawn: impl Fn(&[Layer], f64) -> f64, result: &mut TileResult) {
-        let divide = self.plan.textures.premultiplied;
-        let mut of_pixel: Vec<Vec<usize>> = vec![Vec::new(); PIXELS];
-        for at in 0..work.fragments.len() {
-            of_pixel[usize::from(work.fragments.pixel[at])].push(at);
-        }
-        for (pixel, fragments) in of_pixel.iter().enumerate().filter(|(_, fragments)| !fragments.is_empty()) {
-            let layers = |value: &dyn Fn(usize) -> f32| -> Vec<Layer> {
-                let layer = |&at: &usize| Layer {
-                    depth: f64::from(work.fragments.depth[at]),
-                    alpha: f64::from(work.alpha[at]),
-                    value: f64::from(value(at)),
-                };
-                fragments.iter().map(layer).collect()
-            };
-            let drawn =
-                |value: &dyn Fn(usize) -> f32, behind: f32| drawn(&layers(value), f64::from(behind)) as f32;
-            result.colour[pixel] = [0, 1, 2].map(|c| drawn(&|at| self.colour(work, at, divide)[c], SKY[c]));
-            result.coverage[pixel] = drawn(&|_| 1.0, 0.0);
-        }
-    }
-
-    fn colour(&self, work: &Work, at: usize, divide: bool) -> [f32; 3] {
-        let triangle = work.fragments.triangle[at];
-        let texture = self.texture(triangle);
-        let shade = self.screen.shade(triangle);
-        let colour = match texture.colour(&work.access[at]) {
-            Some([r, g, b]) if divide => {
-                premultiplied::divide([r, g, b, work.alpha[at]].map(f64::from)).map(|c| c as f32)
-            }
-            Some(colour) => colour,
-            None => LEAF,
-        };
-        colour.map(|c| (c * shade).min(1.0))
-    }
 }
 
 /// The threshold of a model with another hash in place of its own.
@@ -548,41 +466,4 @@ fn test(work: &mut Work, samples: u32) {
         };
         work.kept.push(kept & work.fragments.covered.get(at).unwrap_or(&all));
     }
-}
-
-fn layer_sums(work: &Work, samples: u32) -> LayerSums {
-    let mut first = vec![[NONE; 2]; PIXELS];
-    let depth = |at: u32| work.fragments.depth[at as usize];
-    for at in 0..work.fragments.len() as u32 {
-        let [near, far] = &mut first[usize::from(work.fragments.pixel[at as usize])];
-        if *near == NONE || depth(at) < depth(*near) {
-            (*far, *near) = (*near, at);
-        } else if *far == NONE || depth(at) < depth(*far) {
-            *far = at;
-        }
-    }
-    let mut sums = LayerSums::default();
-    for pair in first.iter().filter(|pair| pair[1] != NONE) {
-        let alphas = pair.map(|at| {
-            // What a fragment covers in the mean, if it covers a part of its pixel only.
-            let share = work.fragments.coverage.get(at as usize).unwrap_or(&1.0);
-            share * f64::from(work.alpha[at as usize])
-        });
-        if alphas.iter().any(|alpha| !(0.01..=0.99).contains(alpha)) {
-            continue;
-        }
-        // Over the samples of the pixel that both cover, so that what two layers show at one sample counts.
-        let [a, b] = pair.map(|at| work.kept[at as usize]);
-        let all = u64::MAX >> (u64::BITS - samples);
-        let both =
-            pair.iter().fold(all, |all, &at| all & work.fragments.covered.get(at as usize).unwrap_or(&all));
-        if both == 0 {
-            continue;
-        }
-        let share = |mask: u64| f64::from((mask & both).count_ones()) / f64::from(both.count_ones());
-        let [p, q] = alphas;
-        sums.covariance += share(a & b) - p * share(b) - q * share(a) + p * q;
-        sums.deviation += (p * (1.0 - p) * q * (1.0 - q)).sqrt();
-    }
-    sums
 }
