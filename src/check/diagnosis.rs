@@ -32,9 +32,13 @@ impl fmt::Display for Guess {
 ///
 /// Only claims that were tried and gave an answer count, and none that is known to fail: under
 /// [`Suite::Paper`](super::Suite::Paper) those are the ones that the paper's own listing fails. Empty where nothing
-/// speaks against the subject, and where it looks like none of the specimens.
+/// speaks against the subject, where it looks like none of the specimens, and where next to nothing that it answers is a
+/// threshold.
 #[must_use]
 pub fn guesses(outcomes: &[Outcome]) -> Vec<Guess> {
+    if is_no_threshold(outcomes) {
+        return Vec::new();
+    }
     let matrix = KillMatrix::committed();
     let tried: Vec<&Outcome> =
         outcomes.iter().filter(|outcome| outcome.is_answered() && outcome.known.is_none()).collect();
@@ -90,7 +94,7 @@ fn is_no_threshold(outcomes: &[Outcome]) -> bool {
 pub fn diagnoses(outcomes: &[Outcome]) -> Vec<Diagnosis<'_>> {
     let of_one_subject = |a: &Outcome, b: &Outcome| a.subject == b.subject && a.precision == b.precision;
     let diagnosis = |outcomes: &[Outcome]| {
-        let mut found = if is_no_threshold(outcomes) { Vec::new() } else { guesses(outcomes) };
+        let mut found = guesses(outcomes);
         found.truncate(GUESSES);
         found
     };
