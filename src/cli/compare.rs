@@ -41,10 +41,9 @@ pub fn run(args: &CompareArgs) -> Result<Ending, Failure> {
         };
         writeln!(results, "{} and {} in {}: {line}", a.name, b.name, a.precision).map_err(Failure::Output)?;
     }
-    if [&args.first, &args.second].into_iter().any(|typed| typed.starts_with("gpu:robust")) {
-        if let Some(line) = hashes(args) {
-            writeln!(results, "{line}").map_err(Failure::Output)?;
-        }
+    let is_on_device = [&args.first, &args.second].into_iter().any(|typed| typed.starts_with("gpu:robust"));
+    if is_on_device && let Some(line) = hashes(args) {
+        writeln!(results, "{line}").map_err(Failure::Output)?;
     }
     results.flush().map_err(Failure::Output)?;
     Ok(ending)

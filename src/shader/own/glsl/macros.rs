@@ -213,7 +213,7 @@ mod tests {
             + "float threshold() { return f(A7(1.0)); }";
         for (text, wanted) in [
             (sums, "operators in one statement"),
-            (commas, "more than 524288 words"),
+            (commas, "more than 80000 words and signs in one function"),
             (nothing, "more than 524288 words"),
             (brackets, "nested too deeply"),
             (calls, "nest more than 100 deep"),
