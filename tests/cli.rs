@@ -709,6 +709,37 @@ fn a_threshold_is_printed_in_every_language() {
     succeed(&["shader", "--lang", "spirv", "--out", file.to_str().unwrap()], "");
     assert_eq!(std::fs::read(file).unwrap()[..4], 0x0723_0203_u32.to_le_bytes());
     assert_eq!(run(&["shader", "--literal", "--join", "copula"], "").status.code(), Some(2));
+    let ablation = succeed(&["shader", "--variant", "linear"], "");
+    assert!(ablation.contains("linear scales (section 5.4.2), stable form, hash sine"), "{ablation}");
+    let refused = run(&["shader", "--variant", "single", "--join", "copula"], "");
+    assert_fails(&refused, "", "--join changes the robust threshold; single is written as the paper has it");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn what_is_no_file_is_written_through() {
+    let text = succeed(&["shader"], "");
+    assert_eq!(succeed(&["shader", "--out", "/dev/stdout"], ""), text);
+    assert_eq!(succeed(&["shader", "--out", "/proc/self/fd/1"], ""), text);
+}
+
+#[test]
+fn a_shader_file_may_tell_its_size_of_noise_and_its_phase() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("mine.wgsl");
+    let file = file.to_str().unwrap();
+    succeed(&["shader", "--hash-scale", "0.25", "--out", file], "");
+    let options =
+        ["--on", "cpu", "--only", "exact", "--only", "noise_scale", "--budget", "quick", "--no-report"];
+    let check = |more: &[&str]| run(&[&["check", file], &options[..], more].concat(), "");
+    let output = check(&["--nested-phase", "--hash-scale", "0.25"]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stdout));
+    let output = check(&["--nested-phase"]);
+    assert_eq!(output.status.code(), Some(1));
+    let output = check(&["--hash-scale", "0.25"]);
+    let said = String::from_utf8(output.stdout).unwrap().split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(said.contains("without --literal, say --nested-phase"), "{said}");
+    assert_eq!(check(&["--hash-scale", "0"]).status.code(), Some(2));
 }
 
 #[test]

@@ -1,8 +1,9 @@
 //! What a rejected threshold looks like: the specimens that much the same claims reject.
 
 use super::Outcome;
+use super::claims::range::RANGE;
 use super::specimen::{self, Specimen, matrix::KillMatrix};
-use super::tolerance::{GUESSES, LEAST_LIKENESS};
+use super::tolerance::{GUESSES, LEAST_LIKENESS, NO_THRESHOLD};
 use core::fmt;
 
 /// A specimen that a subject looks like.
@@ -26,11 +27,18 @@ impl fmt::Display for Guess {
 /// it, which happens where few claims were tried, the one with the simplest defect comes first: the one that the fewest
 /// claims of the whole suite reject.
 ///
+/// Specimens are sound but for one defect. A subject may be a port of the paper's own listing with that defect: what the
+/// listing fails by itself is then no difference, and the greater of both likenesses counts.
+///
 /// Only claims that were tried and gave an answer count, and none that is known to fail: under
 /// [`Suite::Paper`](super::Suite::Paper) those are the ones that the paper's own listing fails. Empty where nothing
-/// speaks against the subject, and where it looks like none of the specimens.
+/// speaks against the subject, where it looks like none of the specimens, and where next to nothing that it answers is a
+/// threshold.
 #[must_use]
 pub fn guesses(outcomes: &[Outcome]) -> Vec<Guess> {
+    if is_no_threshold(outcomes) {
+        return Vec::new();
+    }
     let matrix = KillMatrix::committed();
     let tried: Vec<&Outcome> =
         outcomes.iter().filter(|outcome| outcome.is_answered() && outcome.known.is_none()).collect();
@@ -40,15 +48,20 @@ pub fn guesses(outcomes: &[Outcome]) -> Vec<Guess> {
         tried.into_iter().map(|outcome| (outcome, weight(outcome.check))).collect();
     let likeness = |specimen: &'static Specimen| {
         let row = matrix.row(specimen.name)?;
-        let (mut both, mut either) = (0.0, 0.0);
-        for &(outcome, weight) in &weighed {
-            match (!outcome.as_expected(), row.claims.contains(&outcome.check)) {
-                (true, true) => (both, either) = (both + weight, either + weight),
-                (false, false) => {}
-                _ => either += weight,
+        let of_port = |is_listing: bool| {
+            let (mut both, mut either) = (0.0, 0.0);
+            for &(outcome, weight) in &weighed {
+                let fails =
+                    row.claims.contains(&outcome.check) || is_listing && outcome.listing_fails.is_some();
+                match (!outcome.as_expected(), fails) {
+                    (true, true) => (both, either) = (both + weight, either + weight),
+                    (false, false) => {}
+                    _ => either += weight,
+                }
             }
-        }
-        let likeness = if either > 0.0 { both / either } else { 0.0 };
+            if either > 0.0 { both / either } else { 0.0 }
+        };
+        let likeness = of_port(false).max(of_port(true));
         (likeness >= LEAST_LIKENESS).then_some(Guess { specimen, likeness })
     };
     let mut guesses: Vec<Guess> = specimen::ALL.iter().filter_map(likeness).collect();
@@ -64,8 +77,16 @@ pub struct Diagnosis<'a> {
     pub subject: &'a str,
     /// "f32" or "f64".
     pub precision: &'static str,
+    /// Whether it answers next to nothing but what is no threshold; then there are no guesses, since no other claim says more.
+    pub is_no_threshold: bool,
     /// The likest specimens, at most three.
     pub guesses: Vec<Guess>,
+}
+
+/// Whether nearly all thresholds are NaN or outside of (0, 1].
+fn is_no_threshold(outcomes: &[Outcome]) -> bool {
+    let is_so = |o: &Outcome| o.check == RANGE.id && !o.as_expected() && o.effect > Some(NO_THRESHOLD);
+    outcomes.iter().any(is_so)
 }
 
 /// Returns what the subjects of a run look like, as far as anything speaks against them.
@@ -79,16 +100,23 @@ pub fn diagnoses(outcomes: &[Outcome]) -> Vec<Diagnosis<'_>> {
     };
     outcomes
         .chunk_by(of_one_subject)
-        .map(|of| Diagnosis { subject: &of[0].subject, precision: of[0].precision, guesses: diagnosis(of) })
-        .filter(|diagnosis| !diagnosis.guesses.is_empty())
+        .map(|of| Diagnosis {
+            subject: &of[0].subject,
+            precision: of[0].precision,
+            is_no_threshold: is_no_threshold(of),
+            guesses: diagnosis(of),
+        })
+        .filter(|diagnosis| diagnosis.is_no_threshold || !diagnosis.guesses.is_empty())
         .collect()
 }
 
 #[cfg(test)]
 pub(super) mod tests {
     use super::super::outcome::tests::outcome;
-    use super::super::{Verdict, claims};
+    use super::super::subject::Precision;
+    use super::super::{Verdict, claims, findings};
     use super::*;
+    use crate::threshold::two_scale::Variant;
 
     /// The outcomes of a specimen as the matrix has them.
     pub(in crate::check) fn outcomes_of(specimen: &str) -> Vec<Outcome> {
@@ -140,6 +168,39 @@ pub(super) mod tests {
         (other.verdict, other.known) = (Verdict::Rejected, Some("it divides by zero".into()));
         let found = guesses(&outcomes);
         assert!(found[0].specimen.name == "dfdx-twice" && found[0].likeness == 1.0, "{found:?}");
+    }
+
+    #[test]
+    fn a_defect_is_found_in_a_port_of_the_listing_too() {
+        // What the listing fails by itself hides the defect, and is no difference.
+        let outcomes = |specimen: &str| {
+            let mut outcomes = outcomes_of(specimen);
+            for outcome in &mut outcomes {
+                outcome.listing_fails =
+                    findings::of_listing(outcome.check, Variant::Isotropic, Precision::F32);
+                if outcome.listing_fails.is_some() {
+                    outcome.verdict = Verdict::Rejected;
+                }
+            }
+            outcomes
+        };
+        for specimen in ["natural-logarithm", "case-by-lerp-factor", "truncation", "mirrored-coordinates"] {
+            let found = guesses(&outcomes(specimen));
+            assert_eq!(found[0].specimen.name, specimen, "{found:?}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_threshold_looks_like_nothing_else() {
+        let mut outcomes = outcomes_of("signed-hash");
+        let range = outcomes.iter_mut().find(|outcome| outcome.check == RANGE.id).unwrap();
+        range.effect = Some(0.5);
+        let of_half = |outcomes: &[Outcome]| diagnoses(outcomes)[0].is_no_threshold;
+        assert!(!of_half(&outcomes));
+        let range = outcomes.iter_mut().find(|outcome| outcome.check == RANGE.id).unwrap();
+        range.effect = Some(1.0);
+        let found = diagnoses(&outcomes);
+        assert!(found[0].is_no_threshold && found[0].guesses.is_empty(), "{found:?}");
     }
 
     #[test]

@@ -38,8 +38,7 @@ pub fn on_device(
     device: &crate::shader::gpu::Device,
     variant: Variant,
 ) -> Result<Subject<'static>, ShaderError> {
-    let evaluator = crate::shader::gpu::Evaluator::new(device, shader)
-        .map_err(|error| shader.error_at(naga::Span::UNDEFINED, error.to_string()))?;
+    let evaluator = crate::shader::gpu::Evaluator::new(device, shader)?;
     Ok(batched(name, variant, move |fragments: &[Fragment]| evaluator.thresholds(fragments)))
 }
 

@@ -21,6 +21,10 @@ pub const SAMPLES_LIMIT: usize = 1 << 23;
 /// A specimen is named where it shares this much of what rejects it with a subject: with less, the two differ in most.
 pub const LEAST_LIKENESS: f64 = 0.3;
 
+/// A share of footprints without a threshold in (0, 1] beyond which a subject is told to have none: no specimen has more
+/// than a few.
+pub const NO_THRESHOLD: f64 = 0.9;
+
 /// Specimens that are named for one subject: more are no help.
 pub const GUESSES: usize = 3;
 

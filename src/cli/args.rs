@@ -164,6 +164,9 @@ pub struct ShaderArgs {
     /// How a shader file joins the hashes of two octaves; interpolate, as the paper, unless stated
     #[arg(long, value_parser = one_of(Join::ALL, Join::name))]
     pub join: Option<Join>,
+    /// Size of the noise in pixels that a shader file is meant to have, above 0; 1, or what --set hash_scale gives
+    #[arg(long, value_name = "S", value_parser = size, allow_negative_numbers = true)]
+    pub hash_scale: Option<f64>,
     /// A shader file cuts its cells between whole numbers, as the robust threshold does
     #[arg(long)]
     pub nested_phase: bool,
@@ -424,6 +427,12 @@ fn resolution(text: &str) -> Result<[u32; 2], &'static str> {
         text.split_once('x').and_then(|(width, height)| Some([width.parse().ok()?, height.parse().ok()?]));
     size.filter(|size| size.iter().all(|side| (1..=LARGEST_SIDE).contains(side)))
         .ok_or("write width and height in pixels like 640x480, each from 1 to 16384")
+}
+
+/// Reads a size of the noise.
+fn size(text: &str) -> Result<f64, &'static str> {
+    let size = text.parse().ok().filter(|&size: &f64| (size as f32).is_finite() && size as f32 > 0.0);
+    size.ok_or("a size of the noise is a number of pixels above 0")
 }
 
 /// Reads a seed.

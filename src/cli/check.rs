@@ -3,8 +3,9 @@
 use super::args::CheckArgs;
 use super::failure::Failure;
 use super::known::{self, Known};
+use super::shader_files::ShaderFile;
 use super::{Ending, drivers, output, shader_files, subjects};
-use hashed_alpha::check::claims::{self, Claim};
+use hashed_alpha::check::claims::{self, Claim, exact::CELLS};
 use hashed_alpha::check::expectation::{Expectation, Judgement, judge};
 use hashed_alpha::check::results::excuse_the_listings;
 use hashed_alpha::check::{self, Draw, Outcome, Subject, Suite, Verdict};
@@ -43,6 +44,7 @@ pub fn run(args: &CheckArgs) -> Result<Ending, Failure> {
     for (subject, remark) in subjects.iter().flat_map(|s| s.remarks().into_iter().map(move |r| (s, r))) {
         output::remark("note", format_args!("{}: {remark}", subject.name));
     }
+    hint_at_phase(&mut outcomes, &subjects, typed);
     if args.suite == Suite::Paper {
         excuse_the_listings(&mut outcomes);
     }
@@ -69,6 +71,21 @@ pub fn run(args: &CheckArgs) -> Result<Ending, Failure> {
 
     explain(&outcomes, &known, &judgement);
     Ok(ending(&outcomes, &judgement))
+}
+
+/// Says with cells that are not where a file claims to have them that there is an option for another place.
+fn hint_at_phase(outcomes: &mut [Outcome], subjects: &[Subject<'_>], typed: &[String]) {
+    let files: Vec<_> = typed.iter().filter_map(|word| Some(ShaderFile::of(word)?.name())).collect();
+    for outcome in outcomes.iter_mut().filter(|o| o.check == CELLS.id && o.verdict == Verdict::Rejected) {
+        let is_plain = subjects.iter().any(|s| s.name == outcome.subject && !s.nested_phase);
+        if is_plain && files.iter().any(|file| outcome.subject.ends_with(file.as_str())) {
+            let seen = outcome.finding.take().unwrap_or_default();
+            outcome.finding = Some(format!(
+                "{seen}; where cells begin between whole numbers, as in every export of `shader` without --literal, say \
+                 --nested-phase"
+            ));
+        }
+    }
 }
 
 fn create(folder: &Path) -> Result<(), Failure> {

@@ -41,8 +41,44 @@ pub fn run(args: &CompareArgs) -> Result<Ending, Failure> {
         };
         writeln!(results, "{} and {} in {}: {line}", a.name, b.name, a.precision).map_err(Failure::Output)?;
     }
+    let is_on_device = [&args.first, &args.second].into_iter().any(|typed| typed.starts_with("gpu:robust"));
+    if is_on_device && let Some(line) = hashes(args) {
+        writeln!(results, "{line}").map_err(Failure::Output)?;
+    }
     results.flush().map_err(Failure::Output)?;
     Ok(ending)
+}
+
+/// How many bits of the integer hash, which every robust threshold rests on, are the same on the device as in Rust: a line,
+/// or none without a device.
+#[cfg(feature = "gpu")]
+fn hashes(args: &CompareArgs) -> Option<String> {
+    use hashed_alpha::shader::assemble::ShaderOptions;
+    use hashed_alpha::shader::gpu::{Choice, Device, parity};
+    use hashed_alpha::threshold::two_scale::Variant;
+    const CELLS: u32 = 1 << 17;
+    let name = format!("hash {}", ShaderOptions::robust(Variant::Isotropic).hash);
+    let stage = parity::stages().find(|stage| stage.name == name)?;
+    let choice = args.shader.adapter.as_deref().map_or_else(Choice::from_environment, Choice::from);
+    let device = Device::open(&choice).ok()?;
+    let outputs = stage.kernel().and_then(|kernel| stage.outputs(&device, &kernel, CELLS));
+    Some(match outputs {
+        Ok(outputs) => {
+            let found = stage.agreement(&outputs);
+            let share = 100.0 * found.equal;
+            format!(
+                "integer {name} on {}: of {} cells {share:.2} % are equal in bits",
+                device.name(),
+                found.values
+            )
+        }
+        Err(error) => format!("integer {name}: unavailable: {error}"),
+    })
+}
+
+#[cfg(not(feature = "gpu"))]
+fn hashes(_: &CompareArgs) -> Option<String> {
+    None
 }
 
 /// Subjects that belong together: of one variant, and of one precision where both have it.

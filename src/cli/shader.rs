@@ -8,16 +8,29 @@ use hashed_alpha::shader::assemble::{ShaderOptions, Source};
 use hashed_alpha::shader::export::{Language, export};
 use hashed_alpha::threshold::cdf::CdfForm;
 use hashed_alpha::threshold::robust::Join;
+use hashed_alpha::threshold::two_scale::Variant;
 use std::io::{IsTerminal, Write};
 
 /// Writes the text to stdout or a file.
 pub fn run(args: &ShaderTextArgs) -> Result<Ending, Failure> {
-    let preset = if args.literal { ShaderOptions::listing } else { ShaderOptions::robust }(args.variant);
+    // As `eval` has it: the ablations have no robust form.
+    let is_ablation = matches!(args.variant, Variant::Linear | Variant::Single);
+    let preset = if args.literal || is_ablation { ShaderOptions::listing } else { ShaderOptions::robust }(
+        args.variant,
+    );
     let source = match (preset.source, args.join) {
         (Source::Robust(preset), join) => Source::Robust(join.unwrap_or(preset)),
-        (_, None | Some(Join::Interpolate)) => Source::Listing(CdfForm::Literal),
-        (_, Some(_)) => {
+        (_, None | Some(Join::Interpolate)) if args.literal => Source::Listing(CdfForm::Literal),
+        (_, None) => Source::Listing(CdfForm::Stable),
+        (_, Some(_)) if args.literal => {
             return Err(Failure::Usage("--literal joins as the listings do: interpolate".to_owned()));
+        }
+        (_, Some(_)) => {
+            let message = format!(
+                "--join changes the robust threshold; {} is written as the paper has it",
+                args.variant
+            );
+            return Err(Failure::Usage(message));
         }
     };
     let options = ShaderOptions {

@@ -53,7 +53,7 @@ fn built_in(word: &str, args: &ShaderArgs) -> Result<Vec<Subject<'static>>, Fail
     if all.is_empty() {
         return Err(Failure::Usage(format!(
             "unknown subject `{word}`; known are paper:isotropic, paper:anisotropic, robust:isotropic, \
-             robust:anisotropic, each with gpu: before it too, and files that end in .wgsl, .glsl, .frag or .spv"
+             robust:anisotropic, each with gpu: before it too, and files that end in .wgsl, .glsl, .frag, .vert, .comp, .fs, .vs or .spv"
         )));
     }
     if matches!(on, On::Auto | On::Cpu) {
@@ -88,7 +88,8 @@ struct Claimed {
 
 fn file(typed: &ShaderFile<'_>, args: &ShaderArgs) -> Result<Vec<Subject<'static>>, Failure> {
     let options = typed.options(args)?;
-    let hash_scale = options.settings.get("hash_scale").and_then(|value| value.parse().ok()).unwrap_or(1.0);
+    let set = || options.settings.get("hash_scale").and_then(|value| value.parse().ok());
+    let hash_scale = args.hash_scale.or_else(set).unwrap_or(1.0);
     let shader = own::read(Path::new(typed.path), &options)?;
     let preset = Robust::new(args.variant).join;
     let claims = Claimed {
@@ -139,14 +140,18 @@ fn placed(
             .collect::<Result<_, _>>()?,
         On::Gpu => vec![on_device(name, shader, args, claims.variant)?],
         On::Auto => {
-            let subject = on_device(name, shader, args, claims.variant)?;
-            match subject.failure() {
-                None => vec![subject],
-                Some(reason) => {
+            let refused = match on_device(name, shader, args, claims.variant) {
+                Ok(subject) if subject.failure().is_none() => Ok(subject),
+                Ok(subject) => Err(subject.failure().unwrap_or_default().to_owned()),
+                Err(failure) => Err(failure.message()),
+            };
+            vec![match refused {
+                Ok(subject) => subject,
+                Err(reason) => {
                     output::remark("note", format_args!("{name} runs in the interpreter: {reason}"));
-                    vec![interpreted(name.to_owned(), DeviceModel::ACCURATE)?]
+                    interpreted(name.to_owned(), DeviceModel::ACCURATE)?
                 }
-            }
+            }]
         }
     };
     for subject in &mut subjects {
@@ -171,8 +176,9 @@ fn on_device(
     let name = format!("gpu:{name}");
     match Device::open(&choice) {
         Ok(device) => {
+            let subject = shaders::on_device(name.as_str(), shader, &device, variant)?;
             output::remark("note", format_args!("{name} runs on {}", device.name()));
-            Ok(shaders::on_device(name, shader, &device, variant)?)
+            Ok(subject)
         }
         Err(error) => Ok(unavailable(name, variant, error.to_string())),
     }

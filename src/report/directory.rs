@@ -5,8 +5,8 @@ use super::html::{self, Run};
 use super::json::write_json_lines;
 use crate::check::{Evidence, Outcome};
 use std::collections::BTreeSet;
-use std::fs;
-use std::io;
+use std::fs::{self, OpenOptions};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -83,19 +83,64 @@ pub fn write_report(dir: &Path, outcomes: &[Outcome], run: &Run) -> Result<Vec<P
 
 /// Writes a file by way of a temporary one beside it that is renamed, so that no reader sees half of it.
 ///
+/// A link stays, and what it leads to is written. What is there and no regular file (a device, a pipe, the standard output
+/// by its name) is opened and written through, behind what it holds.
+///
 /// # Errors
 ///
-/// If either step fails; the error names `path`, and the temporary file is removed. Does not wait for the disk: after
+/// If any step fails; the error names `path`, and the temporary file is removed. Does not wait for the disk: after
 /// a loss of power the file may be empty.
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), ReportError> {
+    let written = target(path).and_then(|target| match target {
+        Target::Replaced(file) => replace(&file, bytes),
+        Target::Through => OpenOptions::new().append(true).open(path)?.write_all(bytes),
+    });
+    written.map_err(|source| ReportError::File { action: "write", path: path.into(), source })
+}
+
+/// How a path is to be written.
+enum Target {
+    /// A regular file, a missing one, or a directory, which then refuses: without links.
+    Replaced(PathBuf),
+    /// Whatever else it is, and every file that a process has open already.
+    Through,
+}
+
+/// Follows the links of a path, the last of which may lead to nothing.
+fn target(path: &Path) -> io::Result<Target> {
+    /// As many as systems follow.
+    const MOST_LINKS: usize = 40;
+    let mut path = path.to_owned();
+    for _ in 0..MOST_LINKS {
+        if let (Some(name), Some(folder)) = (path.file_name(), path.parent()) {
+            let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+            path = fs::canonicalize(folder)?.join(name);
+        }
+        if path.starts_with("/proc") {
+            return Ok(Target::Through);
+        }
+        match fs::symlink_metadata(&path) {
+            Ok(found) if found.is_symlink() => {
+                let next = fs::read_link(&path)?;
+                path = path.parent().map_or(next.clone(), |folder| folder.join(&next));
+            }
+            Ok(found) if found.is_file() || found.is_dir() => return Ok(Target::Replaced(path)),
+            Ok(_) => return Ok(Target::Through),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Target::Replaced(path)),
+            Err(error) => return Err(error),
+        }
+    }
+    Err(io::Error::other("links that lead to each other"))
+}
+
+fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
     static COUNTER: AtomicU64 = AtomicU64::new(0);
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let number = COUNTER.fetch_add(1, Ordering::Relaxed);
     let partial = path.with_file_name(format!(".{name}.{}-{number}.partial", process::id()));
-    fs::write(&partial, bytes).and_then(|()| fs::rename(&partial, path)).map_err(|source| {
+    fs::write(&partial, bytes).and_then(|()| fs::rename(&partial, path)).inspect_err(|_| {
         // The first error is the one to tell; the file may not even exist.
         let _ = fs::remove_file(&partial);
-        ReportError::File { action: "write", path: path.into(), source }
     })
 }
 
@@ -229,6 +274,46 @@ mod tests {
         let error = write_atomically(&root.path().join("taken"), b"new").unwrap_err();
         assert!(error.to_string().ends_with("taken"), "{error}");
         assert_eq!(files(root.path()), ["file.txt", "taken"]);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_stays_and_what_it_leads_to_is_replaced() {
+        let root = tempfile::tempdir().unwrap();
+        let at = |name: &str| root.path().join(name);
+        fs::create_dir(at("folder")).unwrap();
+        fs::write(at("folder/file"), "old").unwrap();
+        for (link, target) in
+            [("one", "folder/file"), ("two", "one"), ("new", "folder/absent"), ("a", "b"), ("b", "a")]
+        {
+            std::os::unix::fs::symlink(target, at(link)).unwrap();
+        }
+        write_atomically(&at("two"), b"two").unwrap();
+        write_atomically(&at("new"), b"new").unwrap();
+        assert_eq!(fs::read(at("folder/file")).unwrap(), b"two");
+        assert_eq!(fs::read(at("folder/absent")).unwrap(), b"new");
+        assert!(
+            ["one", "two", "new"].iter().all(|link| fs::symlink_metadata(at(link)).unwrap().is_symlink())
+        );
+        assert_eq!(files(&at("folder")), ["absent", "file"]);
+        assert!(write_atomically(&at("a"), b"").is_err());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_pipe_is_written_through() {
+        use std::os::unix::fs::FileTypeExt;
+        let root = tempfile::tempdir().unwrap();
+        let pipe = root.path().join("pipe");
+        assert!(process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+        let reader = std::thread::spawn({
+            let pipe = pipe.clone();
+            move || fs::read(pipe).unwrap()
+        });
+        write_atomically(&pipe, b"new").unwrap();
+        assert_eq!(reader.join().unwrap(), b"new");
+        assert!(fs::symlink_metadata(&pipe).unwrap().file_type().is_fifo());
+        assert_eq!(files(root.path()), ["pipe"]);
     }
 
     #[test]

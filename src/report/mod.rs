@@ -34,6 +34,11 @@ pub mod text;
 #[cfg(all(test, feature = "cli"))]
 mod example;
 
+/// What is said of a subject that has no thresholds.
+#[cfg(feature = "plots")]
+const NO_THRESHOLD: &str = "nearly nothing that it answers is a threshold: NaN, or outside of (0, 1]; see `range`, before \
+                            anything else";
+
 /// Returns the answer in words that say whether a negative control did its work.
 #[cfg(feature = "plots")]
 fn answer(outcome: &crate::check::Outcome) -> &'static str {

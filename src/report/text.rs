@@ -1,6 +1,6 @@
 //! The outcomes as a table for a terminal, at most [`COLUMNS`] wide.
 
-use super::answer;
+use super::{NO_THRESHOLD, answer};
 use crate::check::diagnosis::{Diagnosis, diagnoses};
 use crate::check::{Outcome, Verdict};
 use std::fmt::Write as _;
@@ -39,10 +39,16 @@ pub fn table(outcomes: &[Outcome], colour: bool) -> String {
     }
     let mut text = String::new();
     push_row(&mut text, &HEADINGS.map(str::to_owned), &widths, None);
+    let mut told = None;
     for (row, outcome) in rows.iter().zip(outcomes) {
         let paint = colour.then(|| paint_of(outcome));
         push_row(&mut text, row, &widths, paint);
-        push_finding(&mut text, outcome, paint);
+        // Why a subject could not be run is the same for all its claims.
+        let reason =
+            (outcome.verdict == Verdict::Unavailable).then_some((&outcome.subject, &outcome.finding));
+        if reason.is_none() || told.replace(reason) != Some(reason) {
+            push_finding(&mut text, outcome, paint);
+        }
     }
     for diagnosis in diagnoses(outcomes) {
         push_diagnosis(&mut text, &diagnosis);
@@ -180,6 +186,10 @@ fn push_finding(text: &mut String, outcome: &Outcome, paint: Option<&str>) {
 }
 
 fn push_diagnosis(text: &mut String, diagnosis: &Diagnosis<'_>) {
+    if diagnosis.is_no_threshold {
+        let line = format!("{} in {}: {NO_THRESHOLD}", diagnosis.subject, diagnosis.precision);
+        wrap(&line, COLUMNS).iter().for_each(|line| push_line(text, line));
+    }
     for (place, guess) in diagnosis.guesses.iter().enumerate() {
         let line = match place {
             0 => format!("{} in {} looks like: {guess}", diagnosis.subject, diagnosis.precision),

@@ -9,6 +9,7 @@ use super::assemble::{
 };
 use crate::technique::stipple::Density;
 use crate::threshold::hash::{UnknownName, by_name};
+use crate::threshold::robust::Robust;
 use crate::threshold::two_scale::Variant;
 use core::fmt;
 use core::str::FromStr;
@@ -48,6 +49,11 @@ impl Language {
             Self::Msl => "msl",
             Self::SpirV => "spirv",
         }
+    }
+
+    /// Whether it has a text that a shader on trial may be written in.
+    const fn is_taken_on_trial(self) -> bool {
+        matches!(self, Self::Wgsl | Self::Glsl | Self::GlslEs)
     }
 }
 
@@ -203,11 +209,39 @@ fn header(options: &ShaderOptions, language: Language) -> String {
         format!("Discard a fragment where its alpha is below {}.", call(options)),
     ];
     let meanings = options.parameters();
+    lines.extend(on_trial(options).filter(|_| language.is_taken_on_trial()));
     lines.extend(meanings.iter().map(|parameter| format!("  {}: {}", parameter.name, parameter.meaning)));
     if language != Language::Wgsl {
         lines.push("Written by naga out of WGSL.".to_owned());
     }
     lines.into_iter().map(|line| format!("// {line}\n")).collect()
+}
+
+/// How the exported file is put on trial; nothing where more follows the threshold.
+fn on_trial(options: &ShaderOptions) -> Option<String> {
+    let &ShaderOptions { variant, source, hash_scale, coverage: None, fade_in: None, stratify: None, .. } =
+        options
+    else {
+        return None;
+    };
+    let mut asked = String::new();
+    if variant != Variant::Isotropic {
+        asked += &format!(" --variant {variant}");
+    }
+    match source {
+        Source::Listing(_) => {}
+        Source::Robust(join) => {
+            asked += " --nested-phase";
+            if join != Robust::new(variant).join {
+                asked += &format!(" --join {join}");
+            }
+        }
+        _ => return None,
+    }
+    if let Some(scale) = hash_scale.filter(|&scale| scale != 1.0) {
+        asked += &format!(" --hash-scale {scale}");
+    }
+    Some(format!("Verify it: hashed-alpha check FILE{asked}"))
 }
 
 fn call(options: &ShaderOptions) -> String {
@@ -301,6 +335,8 @@ mod tests {
             );
             assert!(text.contains("below threshold(position, dpdx, dpdy)."), "{text}");
             assert!(!text.contains("main("), "{text}");
+            let trial = "// Verify it: hashed-alpha check FILE --variant anisotropic --nested-phase\n";
+            assert_eq!(text.contains(trial), language.is_taken_on_trial(), "{text}");
         }
     }
 }

@@ -51,6 +51,17 @@ fn what_would_take_a_parser_down_is_a_message() {
         + &glsl_body("A39".to_owned());
     let error = glsl(&bomb, &options(&[])).unwrap_err();
     assert!(error.starts_with("own.glsl:41:41: more than"), "{error}");
+    let body_of = |statements: usize| "x += position.x;\n".repeat(statements);
+    let many = format!("float threshold(vec3 position) {{ float x = 0.0; {} return x; }}", body_of(100_000));
+    let error = glsl(&many, &options(&[])).unwrap_err();
+    assert!(error.contains(": more than 80000 words and signs in one function"), "{error}");
+    let unread = format!("float lost(vec3 position) {{ float x = 0.0; {} return x; }}", body_of(100_000));
+    let both = format!("{unread}\n{}", glsl_body("position.x".to_owned()));
+    assert!(glsl(&both, &options(&[])).is_ok());
+    let many =
+        format!("fn threshold(position: vec3<f32>) -> f32 {{ var x = 0.0; {} return x; }}", body_of(100_000));
+    let error = wgsl(&many, &options(&[])).unwrap_err();
+    assert!(error.contains(": more than 80000 words and signs in one function"), "{error}");
     // What is within the limits is read, and said again, on whatever stack the caller has.
     let long = "position.x + ".repeat(4_900) + "1.0";
     assert!(wgsl(&body(long.clone()), &options(&[])).unwrap().wgsl().is_ok());

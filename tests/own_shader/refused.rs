@@ -29,6 +29,10 @@ fn what_is_refused_is_named_with_its_place() {
             "fn threshold(foo: vec4<f32>) -> f32 { return foo.x; }",
             "parameter `foo` of `threshold` has no value: --set foo=X,Y,Z,W; it",
         ),
+        (
+            "fn other() { discard; }\nfn threshold() -> f32 { other(); return 1.0; }",
+            "own.wgsl:1:14: a threshold cannot `discard`",
+        ),
         ("fn threshold(p: ptr<function, f32>) -> f32 { return *p; }", "a pointer"),
         (
             "@group(0) @binding(0) var t: texture_2d<f32>;
@@ -83,6 +87,26 @@ fn what_is_refused_is_named_with_its_place() {
             "uniform mat3 foo;\nfloat threshold() { return foo[0].x; }",
             "own.glsl:1:14: uniform `foo`, of type mat3x3<f32>, has no value, and --set gives one to numbers and vectors only",
         ),
+        (
+            "uniform sampler2D t;\nfloat threshold(vec3 position) { return texture(t, position.xy).a; }",
+            "`t` is a texture, which is not there when the function runs alone: make what is read of it a parameter",
+        ),
+        (
+            "float threshold(vec3 position) {\n  return position.x > 0.0 ? 0.5 : threshold(-position); }",
+            "functions that call each other in a circle",
+        ),
+        (
+            "#define S \"str\"\nfloat threshold() { return 1.0; }",
+            "own.glsl:1:11: \"\\\"\" is no character of GLSL",
+        ),
+        (
+            "#error \"don't\"\nfloat threshold() { return 1.0; }",
+            "own.glsl:1:2: the file says: #error \"don't\"",
+        ),
+        (
+            "uniform Camera { mat4 view; vec3 eye; } camera;\nfloat threshold() { return camera.view[0].x; }",
+            "`view` of uniform block `camera`, of type mat4x4<f32>, has no value, and --set gives one to numbers",
+        ),
         ("float threshold(out float foo) { foo = 1.0; return 1.0; }", "a pointer (an `out` or `inout`)"),
         (
             "float threshold(float a) { return a; } float threshold(vec3 position) { return 1.0; }",
@@ -98,7 +122,9 @@ fn what_is_refused_is_named_with_its_place() {
     }
     assert_eq!(wrong, Vec::<String>::new());
     let no_text = parse("own.wgsl", Language::Wgsl, b"fn \xff", &none).unwrap_err();
-    assert_eq!(no_text.to_string(), "own.wgsl: byte 4 is not UTF-8");
+    assert_eq!(no_text.to_string(), "own.wgsl:1:4: the byte 0xff is not UTF-8");
+    let latin = parse("own.glsl", Language::Glsl, b"\xef\xbb\xbf\n//\xc3\xa9 \xe9", &none).unwrap_err();
+    assert_eq!(latin.to_string(), "own.glsl:2:5: the byte 0xe9 is not UTF-8");
     let words = parse("own.spv", Language::SpirV, &[1, 2, 3], &none).unwrap_err();
     assert!(words.to_string().starts_with("own.spv: "), "{words}");
 }

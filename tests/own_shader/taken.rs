@@ -187,7 +187,10 @@ void main() { first = vec4(vPos, threshold(vPos)); second = texture(u_maps[0], v
     assert_eq!(threshold(&shader, [1.25, 0.0, 0.0]), 0.25);
     let reads_block = text.replace("fract(position.x)", "fract(\n  eye.x)");
     let error = glsl(&reads_block, &options(&[])).unwrap_err();
-    assert!(error.starts_with("own.glsl:9:9: uniform block `Camera`"), "{error}");
+    assert!(
+        error.contains("`eye` of uniform block `Camera` has no value: --set Camera.eye=X,Y,Z"),
+        "{error}"
+    );
     let wrong = text.replace("fract(position.x)", "fract(positon.x)");
     assert!(glsl(&wrong, &options(&[])).unwrap_err().starts_with("own.glsl:14:47: `positon`"));
 }
@@ -258,4 +261,97 @@ fn threshold(position: vec3<f32>, j: vec4<u32>, wide: vec2<bool>) -> f32 {
     }
     let scalar = "uniform float k;\nfloat threshold() { return k; }";
     assert!(glsl(scalar, &options(&[("k", "1,2")])).unwrap_err().contains("`k`: `1,2` is no f32"));
+}
+
+#[test]
+fn members_of_blocks_are_set_by_name() {
+    let text = "#version 330
+layout(std140) uniform PerObject { mat4 world; float hashScale; vec2 offset; } u;
+uniform Camera { vec3 eye; };
+float threshold(vec3 position) { return u.hashScale * position.x + u.offset.y + eye.z; }";
+    for [scale, eye] in [["u.hashScale", "Camera.eye"], ["hashScale", "eye"]] {
+        let set = options(&[(scale, "0.5"), ("u.offset", "0,2"), (eye, "0,0,4")]);
+        let shader = glsl(text, &set).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(threshold(&shader, [2.0, 0.0, 0.0]), 7.0);
+        assert!(shader.wgsl().is_ok());
+    }
+    let error = glsl(text, &options(&[("hashScale", "1"), ("eye", "0,0,0")])).unwrap_err();
+    assert!(error.contains("`offset` of uniform block `u` has no value: --set u.offset=X,Y"), "{error}");
+    let error = glsl(text, &options(&[("hashScale", "1,2")])).unwrap_err();
+    assert!(error.contains("`1,2` is no f32"), "{error}");
+
+    let own = "struct Material { tint: vec4<f32>, scale: f32 }
+@group(0) @binding(0) var<uniform> material: Material;
+fn scaled(material: Material, x: f32) -> f32 { return material.scale * x; }
+fn threshold(position: vec3<f32>) -> f32 { return scaled(material, position.x); }";
+    let error = wgsl(own, &options(&[("scale", "0.5")])).unwrap_err();
+    assert!(error.contains("`tint` of uniform block `material` has no value"), "{error}");
+    let shader = wgsl(own, &options(&[("scale", "0.5"), ("material.tint", "1,1,1,1")])).unwrap();
+    assert_eq!(threshold(&shader, [2.0, 0.0, 0.0]), 1.0);
+}
+
+#[test]
+fn what_a_condition_leaves_out_may_be_anything() {
+    let text = "#if 0
+#error \"no\"
+#error don't
+#define S \"str\"
+#include \"common.glsl\"
+float größe @ $
+#endif
+float threshold(vec3 position) { return fract(position.x); }
+#if 0
+'
+#endif";
+    let shader = glsl(text, &options(&[])).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(threshold(&shader, [1.25, 0.0, 0.0]), 0.25);
+    for (line, column) in [(2, 2), (4, 11), (5, 1), (6, 9)] {
+        let lines = text.lines().enumerate();
+        let kept: Vec<_> = lines
+            .map(|(index, at)| {
+                if index == 0 {
+                    "#if 1"
+                } else if index + 1 == line || index > 5 {
+                    at
+                } else {
+                    ""
+                }
+            })
+            .collect();
+        let error = glsl(&kept.join("\n"), &options(&[])).unwrap_err();
+        assert!(error.starts_with(&format!("own.glsl:{line}:{column}: ")), "{error}");
+    }
+}
+
+#[test]
+fn halves_may_be_packed_into_a_word() {
+    let text =
+        "float threshold(vec3 position) { return unpackHalf2x16(packHalf2x16(fract(position.xy))).x; }";
+    let shader = glsl(text, &options(&[])).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(threshold(&shader, [1.25, 0.0, 0.0]), 0.25);
+}
+
+/// What glslang makes of `float threshold(vec3 position, vec3 dpdx)`: a mangled name, and pointers.
+#[test]
+fn spir_v_of_another_compiler_is_taken() {
+    let text = "fn threshold(position: ptr<function, vec3<f32>>, dpdx: ptr<function, vec3<f32>>) -> f32 {
+    *position = *position * 0.5;
+    return (*position).x + (*dpdx).x;
+}";
+    let mut module = naga::front::wgsl::parse_str(text).unwrap();
+    for (_, function) in module.functions.iter_mut() {
+        function.name = Some("threshold(vf3;vf3;".to_owned());
+    }
+    let capabilities = naga::valid::Capabilities::all();
+    let mut validator = naga::valid::Validator::new(naga::valid::ValidationFlags::all(), capabilities);
+    let info = validator.validate(&module).unwrap();
+    let flags = naga::back::spv::WriterFlags::DEBUG;
+    let written = naga::back::spv::Options { flags, ..Default::default() };
+    let words = naga::back::spv::write_vec(&module, &info, &written, None).unwrap();
+    let bytes: Vec<u8> = words.into_iter().flat_map(u32::to_le_bytes).collect();
+    let shader =
+        parse("own.spv", Language::SpirV, &bytes, &options(&[])).unwrap_or_else(|error| panic!("{error}"));
+    let inputs: Vec<_> = shader.bindings.iter().map(|binding| binding.input).collect();
+    assert_eq!(inputs, [Input::Position, Input::Dpdx]);
+    assert_eq!(threshold(&shader, [2.0, 0.0, 0.0]), 1.125);
 }

@@ -2,7 +2,7 @@
 
 use super::{Device, Error, Kernel, Program};
 use crate::scene::Fragment;
-use crate::shader::own::OwnShader;
+use crate::shader::own::{OwnShader, ShaderError};
 
 /// A shader, compiled for a device.
 #[derive(Clone, Debug)]
@@ -16,13 +16,14 @@ impl Evaluator {
     ///
     /// # Errors
     ///
-    /// [`Error::Validation`] for a shader that cannot be said in WGSL; those of a lost device.
-    pub fn new(device: &Device, shader: &OwnShader) -> Result<Self, Error> {
-        let source = shader.wgsl().map_err(|error| Error::Validation(error.to_string()))?;
+    /// [`ShaderError`]: the shader cannot be said in WGSL, or the device does not take it.
+    pub fn new(device: &Device, shader: &OwnShader) -> Result<Self, ShaderError> {
+        let source = shader.wgsl()?;
         let expression = format!("array(bitcast<u32>({}))", shader.call());
         // A storage binding cannot be empty.
         let words = shader.words_per_fragment().max(1);
-        let program = device.compile(&Kernel::of_words(&source, words, 1, &expression))?;
+        let program = device.compile(&Kernel::of_words(&source, words, 1, &expression));
+        let program = program.map_err(|error| shader.error_at(naga::Span::UNDEFINED, error.to_string()))?;
         Ok(Self { program, shader: shader.clone() })
     }
 

@@ -1,11 +1,12 @@
 //! Screen derivatives of the position, taken by name: there is no neighbouring pixel here, but each fragment brings
 //! them along.
 
+use super::body::Body;
 use super::error::Fault;
 use super::scan::Token;
 use naga::{
-    Arena, Block, Expression, Function, FunctionArgument, FunctionResult, GlobalVariable, Handle, Module,
-    Span, Statement, Type, TypeInner, VectorSize,
+    Arena, Expression, Function, FunctionArgument, FunctionResult, GlobalVariable, Handle, Module, Span,
+    Statement, Type, TypeInner, VectorSize,
 };
 
 /// The variables that take the place of derivatives: along x, along y, and the sum of both without signs.
@@ -103,7 +104,7 @@ pub(super) fn wrap(module: &mut Module, target: Handle<Function>) -> Handle<Func
             arguments.len() - 1
         })
     });
-    let mut body = Body { expressions: Arena::new(), block: Block::new() };
+    let mut body = Body::default();
     let arguments: Vec<_> = (0..function.arguments.len())
         .map(|index| body.append(Expression::FunctionArgument(index as u32)))
         .collect();
@@ -120,14 +121,7 @@ pub(super) fn wrap(module: &mut Module, target: Handle<Function>) -> Handle<Func
             body.block.push(Statement::Store { pointer, value }, Span::UNDEFINED);
         }
     }
-    let result = body.append(Expression::CallResult(target));
-    let call = Statement::Call {
-        function: target,
-        arguments: arguments[..own_arguments].to_vec(),
-        result: Some(result),
-    };
-    body.block.push(call, Span::UNDEFINED);
-    body.block.push(Statement::Return { value: Some(result) }, Span::UNDEFINED);
+    body.return_call(target, arguments[..own_arguments].to_vec());
     (function.expressions, function.body) = (body.expressions, body.block);
     function.result = function.result.map(|FunctionResult { ty, .. }| FunctionResult { ty, binding: None });
     module.functions.append(function, Span::UNDEFINED)
@@ -135,24 +129,4 @@ pub(super) fn wrap(module: &mut Module, target: Handle<Function>) -> Handle<Func
 
 fn find(variables: &Arena<GlobalVariable>, name: &str) -> Option<Handle<GlobalVariable>> {
     variables.iter().find(|(_, variable)| variable.name.as_deref() == Some(name)).map(|(handle, _)| handle)
-}
-
-/// A function body under construction.
-struct Body {
-    expressions: Arena<Expression>,
-    block: Block,
-}
-
-impl Body {
-    fn append(&mut self, expression: Expression) -> Handle<Expression> {
-        self.expressions.append(expression, Span::UNDEFINED)
-    }
-
-    /// Appends an expression that is computed here.
-    fn emit(&mut self, expression: Expression) -> Handle<Expression> {
-        let before = self.expressions.len();
-        let handle = self.append(expression);
-        self.block.push(Statement::Emit(self.expressions.range_from(before)), Span::UNDEFINED);
-        handle
-    }
 }

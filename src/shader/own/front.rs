@@ -20,6 +20,8 @@ pub(super) struct Front {
     /// Whether a variable without an initial value holds nothing, as in GLSL, or zero.
     pub begins_undefined: bool,
     pub has_derivatives: bool,
+    /// Whether a parameter that is a pointer stands for a copy, as a compiler of GLSL writes `in`.
+    pub takes_copies: bool,
 }
 
 impl Front {
@@ -35,6 +37,7 @@ impl Front {
             functions,
             begins_undefined: false,
             has_derivatives,
+            takes_copies: false,
         }
     }
 }
@@ -56,8 +59,14 @@ pub(super) fn filled_by_entry_points(module: &Module) -> BTreeSet<String> {
 
 pub(super) fn read_spir_v(bytes: &[u8]) -> Result<Front, Fault> {
     let options = naga::front::spv::Options { strict_capabilities: false, ..Default::default() };
-    let module =
+    let mut module =
         naga::front::spv::parse_u8_slice(bytes, &options).map_err(|error| Fault::new(error.to_string()))?;
     validate(&module)?;
-    Ok(Front::plain(module, false))
+    for (_, function) in module.functions.iter_mut() {
+        // glslang puts the types of the parameters behind the name.
+        if let Some((name, _)) = function.name.as_deref().and_then(|name| name.split_once('(')) {
+            function.name = Some(name.to_owned());
+        }
+    }
+    Ok(Front { takes_copies: true, ..Front::plain(module, false) })
 }

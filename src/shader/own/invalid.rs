@@ -22,13 +22,13 @@ pub(super) fn validate(module: &Module) -> Result<ModuleInfo, Fault> {
     validate_for(module, Capabilities::all())
 }
 
-/// Validates a module that uses nothing but what every device has.
+/// Validates a module that uses nothing but what every device has, pairs of 16 bits in a word among it.
 ///
 /// # Errors
 ///
 /// As those of [`validate`].
 pub(super) fn validate_plain(module: &Module) -> Result<ModuleInfo, Fault> {
-    validate_for(module, Capabilities::empty())
+    validate_for(module, Capabilities::SHADER_FLOAT16_IN_FLOAT32)
 }
 
 fn validate_for(module: &Module, capabilities: Capabilities) -> Result<ModuleInfo, Fault> {
@@ -68,6 +68,9 @@ fn first_words(error: &ValidationError) -> String {
     }
 }
 
+/// What is said of functions that come back to themselves.
+pub(super) const CIRCLE: &str = "functions that call each other in a circle; no shading language allows that";
+
 /// A function that calls one which is complete only behind it: they call each other.
 fn circle(module: &Module, error: &ValidationError) -> Option<Fault> {
     let ValidationError::InvalidHandle(_) = error else { return None };
@@ -76,8 +79,7 @@ fn circle(module: &Module, error: &ValidationError) -> Option<Fault> {
             matches!(*statement, Statement::Call { function, .. } if function.index() >= caller.index())
         };
         let at = find(&within.body, &is_ahead)?;
-        let message = "functions that call each other in a circle; no shading language allows that";
-        Some(Fault::new(message).at(Some(at)))
+        Some(Fault::new(CIRCLE).at(Some(at)))
     })
 }
 
@@ -151,7 +153,7 @@ fn type_of(module: &Module, function: &Function, expression: Handle<Expression>)
 }
 
 /// Finds the first statement that is wanted.
-fn find(block: &Block, wanted: &impl Fn(&Statement) -> bool) -> Option<Range<usize>> {
+pub(super) fn find(block: &Block, wanted: &impl Fn(&Statement) -> bool) -> Option<Range<usize>> {
     let place = |span: &Span| span.to_range();
     block.span_iter().find_map(|(statement, span)| match statement {
         statement if wanted(statement) => place(span),

@@ -4,6 +4,8 @@
 //! engines write it, see the list in `glsl/prepare.rs`. SPIR-V is read so that what is exported can be read back. Of a module
 //! only the function and what it calls is kept; uniforms and overrides that it reads get the values that the user gives.
 
+mod blocks;
+mod body;
 mod derivative;
 mod error;
 mod feed;
@@ -13,6 +15,7 @@ mod invalid;
 mod isolated;
 mod language;
 mod nesting;
+mod pointers;
 mod reduce;
 mod scan;
 mod setting;
@@ -108,11 +111,6 @@ pub fn parse(
     options: &Options,
 ) -> Result<OwnShader, ShaderError> {
     let mut text = "";
-    let text_of = |bytes| {
-        core::str::from_utf8(bytes)
-            .map(|text| text.strip_prefix('\u{feff}').unwrap_or(text))
-            .map_err(|error| Fault::new(format!("byte {} is not UTF-8", error.valid_up_to() + 1)))
-    };
     let mut prelude = 0;
     let outcome = (|| {
         if bytes.iter().all(u8::is_ascii_whitespace) {
@@ -120,11 +118,15 @@ pub fn parse(
         }
         let front = match language {
             Language::Wgsl => {
-                text = text_of(bytes)?;
+                let decoded = decoded(bytes);
+                text = decoded.0;
+                decoded.1?;
                 wgsl::read(text, &options.function)
             }
             Language::Glsl => {
-                text = text_of(bytes)?;
+                let decoded = decoded(bytes);
+                text = decoded.0;
+                decoded.1?;
                 glsl::read(text, options, &mut prelude)
             }
             Language::SpirV => {
@@ -183,6 +185,21 @@ impl OwnShader {
     #[must_use]
     pub fn place(&self, span: Span) -> Option<Place> {
         span.to_range().and_then(|range| place(&self.source, self.prelude, range.start))
+    }
+}
+
+/// The text of a file without its mark of order; where it is none, the part before the first wrong byte.
+fn decoded(bytes: &[u8]) -> (&str, Result<(), Fault>) {
+    let mut chunks = bytes.utf8_chunks();
+    let first = chunks.next();
+    let text = first.as_ref().map_or("", |chunk| chunk.valid());
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    match first.and_then(|chunk| chunk.invalid().first().copied()) {
+        None => (text, Ok(())),
+        Some(byte) => {
+            let message = format!("the byte {byte:#04x} is not UTF-8");
+            (text, Err(Fault::new(message).at(Some(text.len()..text.len() + 1))))
+        }
     }
 }
 

@@ -9,6 +9,9 @@ const MOST_OPERATORS: usize = 10_000;
 /// The most `&&`, `||` and `?` of a statement (the first two count twice): each is a branch within a branch.
 const MOST_CHOICES: usize = 400;
 
+/// The most words and signs of a function, brackets and commas apart: the time that naga takes grows with the square.
+const MOST_WORDS: usize = 80_000;
+
 /// What is open, and how much a statement has had so far.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Nesting {
@@ -17,9 +20,16 @@ pub(super) struct Nesting {
     elses: usize,
     operators: usize,
     choices: usize,
+    /// Words of the function so far, where they are counted.
+    words: Option<usize>,
 }
 
 impl Nesting {
+    /// Counts what a function comes to, too.
+    pub fn of_functions() -> Self {
+        Self { words: Some(0), ..Self::default() }
+    }
+
     /// Takes the next word or sign.
     ///
     /// # Errors
@@ -33,6 +43,11 @@ impl Nesting {
             "&" | "|" | "?" => self.choices += 1,
             _ => {}
         }
+        self.words = self.words.map(|words| match word {
+            _ if self.open == 0 => 0,
+            "(" | ")" | "[" | "]" | "{" | "}" | "," | ";" => words,
+            _ => words + 1,
+        });
         let is_prefix = matches!(word, "-" | "!" | "~" | "&" | "*" | "+" | "<" | "=");
         self.prefixes = if is_prefix { self.prefixes + 1 } else { 0 };
         match word {
@@ -47,6 +62,8 @@ impl Nesting {
             Err(format!("more than {MOST_OPERATORS} operators in one statement"))
         } else if self.choices > MOST_CHOICES {
             Err(format!("more than {} `&&`, `||` or `?` in one statement", MOST_CHOICES / 2))
+        } else if self.words > Some(MOST_WORDS) {
+            Err(format!("more than {MOST_WORDS} words and signs in one function"))
         } else {
             Ok(())
         }

@@ -2,10 +2,11 @@
 
 use super::error::Fault;
 use super::front::Front;
-use super::invalid::{validate, validate_plain};
+use super::invalid::{self, validate, validate_plain};
 use super::signature::{self, Binding};
 use super::variables::{fill_uniforms, overrides, refuse_resources, refuse_undefined};
 use super::{Options, derivative};
+use super::{blocks, pointers};
 use naga::back::pipeline_constants::{PipelineConstantError, process_overrides};
 use naga::valid::ModuleInfo;
 use naga::{Block, EntryPoint, Expression, Function, Handle, Module, ShaderStage, Span, Statement};
@@ -27,7 +28,16 @@ const PREFIX: &str = "its_";
 
 /// Keeps the function that is asked for and what it reads, with every value filled in.
 pub(super) fn reduce(front: Front, options: &Options) -> Result<Reduced, Fault> {
-    let Front { mut module, filled, uniforms, defined, functions, begins_undefined, has_derivatives } = front;
+    let Front {
+        mut module,
+        filled,
+        uniforms,
+        defined,
+        functions,
+        begins_undefined,
+        has_derivatives,
+        takes_copies,
+    } = front;
     let mut settings = options.settings.clone();
     settings.retain(|name, _| !defined.contains(name));
     let mut target = find(&module, &options.function, &functions)?;
@@ -35,8 +45,12 @@ pub(super) fn reduce(front: Front, options: &Options) -> Result<Reduced, Fault> 
     if has_derivatives {
         target = derivative::wrap(&mut module, target);
     }
+    if takes_copies {
+        target = pointers::wrap(&mut module, target);
+    }
     let bindings = signature::bind(&module, target, &options.function, &mut settings)?;
     fill_uniforms(&mut module, &uniforms, &mut settings)?;
+    let blocks = blocks::fill(&mut module, &mut settings)?;
     let constants = overrides(&module, &mut settings)?;
     if let Some(name) = settings.keys().next() {
         return Err(Fault::new(format!(
@@ -46,7 +60,8 @@ pub(super) fn reduce(front: Front, options: &Options) -> Result<Reduced, Fault> 
     }
     rename_functions(&mut module, target);
     keep_only(&mut module, target);
-    let info = validate(&module)?;
+    let in_words = |fault: Fault| Fault { message: unprefixed(&fault.message, &options.function), ..fault };
+    let info = validate(&module).map_err(in_words)?;
     let (module, _) = process_overrides(&module, &info, None, &constants).map_err(|error| match error {
         PipelineConstantError::MissingValue(key) => {
             // One with a number is known to naga by that alone.
@@ -61,13 +76,24 @@ pub(super) fn reduce(front: Front, options: &Options) -> Result<Reduced, Fault> 
     naga::compact::compact(&mut module, naga::compact::KeepUnused::No);
     module.entry_points.clear();
     derivative::refuse_others(&module, &its_name, &options.function)?;
+    refuse_discard(&module)?;
+    blocks::refuse_unset(&module, &blocks)?;
     refuse_resources(&module, &filled, &uniforms)?;
     if begins_undefined {
         refuse_undefined(&module, &options.function)?;
     }
     rename_the_rest(&mut module);
-    let info = validate_plain(&module)?;
+    let info = validate_plain(&module).map_err(in_words)?;
     Ok(Reduced { module, info, function: NAME.to_owned(), bindings })
+}
+
+/// Refuses a fragment that is discarded: what runs here answers with a threshold.
+fn refuse_discard(module: &Module) -> Result<(), Fault> {
+    let is_discard = |statement: &Statement| matches!(statement, Statement::Kill);
+    let found = module.functions.iter().find_map(|(_, function)| invalid::find(&function.body, &is_discard));
+    found.map_or(Ok(()), |at| {
+        Err(Fault::new("a threshold cannot `discard`; return it, and compare outside").at(Some(at)))
+    })
 }
 
 fn find(
@@ -141,6 +167,11 @@ fn rename_the_rest(module: &mut Module) {
 
 fn prefixed(name: Option<String>) -> String {
     format!("{PREFIX}{}", name.unwrap_or_default())
+}
+
+/// A message with the names of the file in the place of ours.
+fn unprefixed(message: &str, function: &str) -> String {
+    message.replace(&format!("`{NAME}`"), &format!("`{function}`")).replace(&format!("`{PREFIX}"), "`")
 }
 
 /// Puts an entry point that calls `target` in the place of all others.

@@ -1,6 +1,6 @@
 //! Values that a user gives by name: `--set KEY=VALUE`.
 
-use naga::{Literal, Scalar, ScalarKind, TypeInner};
+use naga::{Arena, Expression, Handle, Literal, Scalar, ScalarKind, Span, Type, TypeInner};
 
 /// A number or a vector that is the same in every fragment.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,6 +21,17 @@ impl Constant {
     #[must_use]
     pub fn components(&self) -> &[Value] {
         &self.values[..self.size]
+    }
+
+    /// Appends it to constant expressions, of which it is one of type `ty`.
+    pub(super) fn append(&self, ty: Handle<Type>, expressions: &mut Arena<Expression>) -> Handle<Expression> {
+        let mut append = |expression| expressions.append(expression, Span::UNDEFINED);
+        let components: Vec<_> =
+            self.components().iter().map(|value| append(Expression::Literal(value.literal()))).collect();
+        match components[..] {
+            [only] => only,
+            _ => append(Expression::Compose { ty, components }),
+        }
     }
 
     /// Returns it as WGSL says it.

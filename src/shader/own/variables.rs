@@ -5,7 +5,7 @@ use super::error::Fault;
 use super::setting::{Constant, Value};
 use super::signature;
 use naga::back::PipelineConstants;
-use naga::{AddressSpace, Expression, Function, GlobalVariable, Handle, Module, Span, Statement, TypeInner};
+use naga::{AddressSpace, Expression, Function, GlobalVariable, Handle, Module, Statement, TypeInner};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Makes uniforms that are numbers or vectors private variables that begin with the value that `settings` has for them.
@@ -36,13 +36,7 @@ pub(super) fn fill_uniforms(
         let at = module.global_variables.get_span(handle).to_range();
         let value = Constant::parse(&name, inner, &written).map_err(|error| Fault::new(error).at(at))?;
         let ty = variable.ty;
-        let mut append = |expression| module.global_expressions.append(expression, Span::UNDEFINED);
-        let components: Vec<_> =
-            value.components().iter().map(|value| append(Expression::Literal(value.literal()))).collect();
-        let init = match components[..] {
-            [only] => only,
-            _ => append(Expression::Compose { ty, components }),
-        };
+        let init = value.append(ty, &mut module.global_expressions);
         let variable = &mut module.global_variables[handle];
         variable.space = AddressSpace::Private;
         variable.binding = None;
@@ -81,21 +75,16 @@ pub(super) fn refuse_resources(
         let problem = if variable.space == AddressSpace::Uniform || is_uniform {
             match Constant::form(&module.types[variable.ty].inner) {
                 Some(form) => format!("uniform `{name}` has no value: --set {name}={form}"),
-                None => {
-                    let kind = signature::described(module, variable.ty);
-                    let which = match variable.name {
-                        None => format!("uniform block `{kind}`"),
-                        Some(_) => format!("uniform `{name}`, of type {kind},"),
-                    };
-                    format!(
-                        "{which} has no value, and --set gives one to numbers and vectors only: make what is read of it a \
-                         parameter"
-                    )
-                }
+                None => format!(
+                    "uniform `{name}`, of type {}, has no value, and --set gives one to numbers and vectors only: make \
+                     what is read of it a parameter",
+                    signature::described(module, variable.ty)
+                ),
             }
         } else if variable.space != AddressSpace::Private {
             format!(
-                "`{name}` is a texture, buffer or shared memory, which is not there when the function runs alone"
+                "`{name}` is a texture, buffer or shared memory, which is not there when the function runs alone: make what \
+                 is read of it a parameter"
             )
         } else if filled.contains(name) {
             format!(

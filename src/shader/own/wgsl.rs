@@ -5,6 +5,7 @@ use super::error::{Fault, Place};
 use super::front::Front;
 use super::invalid::{joined, validate};
 use super::isolated::isolated;
+use super::nesting::Nesting;
 use super::scan::{Token, end_of_file, tokens};
 use naga::front::wgsl::ParseError;
 
@@ -15,6 +16,10 @@ use naga::front::wgsl::ParseError;
 /// Text that is no WGSL or not valid.
 pub(super) fn read(text: &str, function: &str) -> Result<Front, Fault> {
     let tokens = tokens(text)?;
+    let mut nesting = Nesting::of_functions();
+    for Token { at, .. } in &tokens {
+        nesting.see(&text[at.clone()]).map_err(|message| Fault::new(message).at(Some(at.clone())))?;
+    }
     let mut bytes = text.as_bytes().to_vec();
     blank_imports(&mut bytes, &tokens)?;
     let has_derivatives = derivative::replace(&mut bytes, &tokens, function);

@@ -54,16 +54,21 @@ impl Within<'_, '_> {
     }
 }
 
-/// Reads a text as its parser would see it. Conditions are not evaluated: all that they may leave out is counted, and of
+/// Reads the tokens of a text that are `kept`, as its parser would see them. Conditions are not evaluated: all that they may leave out is counted, and of
 /// several macros of one name the longest.
 ///
 /// # Errors
 ///
 /// Macros that come to more than is read, or that nest too deeply.
-pub(super) fn measure(text: &str, tokens: &[Token], directives: &[Directive<'_>]) -> Result<(), Fault> {
-    let (macros, words) = definitions(text, tokens, directives);
-    let mut reader =
-        Reader { macros: &macros, nesting: Nesting::default(), words_left: MOST_WORDS, start: 0 };
+pub(super) fn measure(
+    text: &str,
+    tokens: &[Token],
+    directives: &[Directive<'_>],
+    kept: impl Fn(&Token) -> bool,
+) -> Result<(), Fault> {
+    let (macros, words) = definitions(text, tokens, directives, kept);
+    let nesting = Nesting::of_functions();
+    let mut reader = Reader { macros: &macros, nesting, words_left: MOST_WORDS, start: 0 };
     reader
         .read(&words, Within { call: None, depth: 0 })
         .map_err(|message| Fault::new(message).at(Some(reader.start..reader.start + 1)))
@@ -74,12 +79,13 @@ fn definitions<'t>(
     text: &'t str,
     tokens: &[Token],
     directives: &[Directive<'_>],
+    kept: impl Fn(&Token) -> bool,
 ) -> (HashMap<&'t str, Macro<'t>>, Vec<Word<'t>>) {
     let word = |token: &Token| Word { text: &text[token.at.clone()], start: token.at.start };
     let (mut macros, mut left) = (HashMap::new(), Vec::new());
     let mut start = 0;
     for directive in directives {
-        left.extend(tokens[start..directive.tokens.start].iter().map(word));
+        left.extend(tokens[start..directive.tokens.start].iter().filter(|token| kept(token)).map(word));
         start = directive.tokens.end;
         let line = tokens[directive.tokens.clone()].iter().map(word);
         let words: Vec<_> = line.filter(|word| word.text != "\\").collect();
@@ -97,7 +103,7 @@ fn definitions<'t>(
             }
         }
     }
-    left.extend(tokens[start..].iter().map(word));
+    left.extend(tokens[start..].iter().filter(|token| kept(token)).map(word));
     (macros, left)
 }
 
@@ -187,7 +193,7 @@ mod tests {
 
     fn measured(text: &str) -> Result<(), String> {
         let tokens = tokens(text).unwrap();
-        measure(text, &tokens, &directives(text, &tokens))
+        measure(text, &tokens, &directives(text, &tokens), |_| true)
             .map_err(|fault| format!("{} at {:?}", fault.message, fault.at))
     }
 
@@ -207,7 +213,7 @@ mod tests {
             + "float threshold() { return f(A7(1.0)); }";
         for (text, wanted) in [
             (sums, "operators in one statement"),
-            (commas, "more than 524288 words"),
+            (commas, "more than 80000 words and signs in one function"),
             (nothing, "more than 524288 words"),
             (brackets, "nested too deeply"),
             (calls, "nest more than 100 deep"),

@@ -9,7 +9,7 @@ mod words;
 use super::Options;
 use super::error::Fault;
 use super::front::{Front, filled_by_entry_points};
-use super::invalid::validate;
+use super::invalid::{CIRCLE, validate};
 use super::isolated::isolated;
 use super::scan::{end_of_file, tokens};
 use naga::front::glsl::Frontend;
@@ -26,11 +26,16 @@ pub(super) fn read(text: &str, asked: &Options, prelude: &mut usize) -> Result<F
     let prepared = prepare::prepare(text, &tokens, &directives, &asked.function, &asked.settings)?;
     *prelude = prepared.prelude;
     let (before, length) = (prepared.prelude, text.trim_end().len());
+    // What messages quote: the user's own words, at the places that naga names.
+    let shown = {
+        let (front, back) = (&prepared.text[..before], &prepared.text[before + text.len()..]);
+        [front, text, back].concat()
+    };
     let read = isolated(move || {
         let mut options = naga::front::glsl::Options::from(naga::ShaderStage::Fragment);
         options.defines.extend(prepared.defines.iter().cloned());
         let parsed = Frontend::default().parse(&options, &prepared.text);
-        let mut module = parsed.map_err(|errors| words::said(&errors, &prepared.text))?;
+        let mut module = parsed.map_err(|errors| words::said(&errors, &shown, &prepared.textures))?;
         let is_unset = |variable: &naga::GlobalVariable| variable.init.is_none();
         let computed = module.global_variables.iter().filter(|(_, variable)| is_unset(variable));
         let mut filled: std::collections::BTreeSet<_> = computed
@@ -49,9 +54,18 @@ pub(super) fn read(text: &str, asked: &Options, prelude: &mut usize) -> Result<F
             functions,
             begins_undefined: true,
             has_derivatives: prepared.has_derivatives,
+            takes_copies: false,
         })
     });
+    // A function is unknown until its end.
+    let is_own_name = |fault: &Fault| {
+        let name = fault.message.strip_prefix("Unknown function '")?.strip_suffix('\'')?;
+        let place = fault.at.as_ref()?.start.checked_sub(before)?;
+        let token = tokens.iter().find(|token| token.at.end > place)?;
+        Some(&text[tokens[token.function?].at.clone()] == name)
+    };
     read.map_err(|fault| match &fault.at {
+        at if is_own_name(&fault) == Some(true) => Fault::new(CIRCLE).at(at.clone()),
         Some(at) if at.start >= before + length => {
             let shifted = |at: core::ops::Range<usize>| at.start + before..at.end + before;
             end_of_file(text, &tokens).map_or(fault, |open| Fault { at: open.at.map(shifted), ..open })

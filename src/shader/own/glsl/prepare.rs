@@ -33,6 +33,8 @@ pub(super) struct Prepared {
     pub uniforms: Vec<String>,
     /// Names of globals that have an initial value; naga drops those values that it cannot compute.
     pub initialised: Vec<String>,
+    /// Names of textures, which are not there.
+    pub textures: Vec<String>,
     pub has_derivatives: bool,
     /// Macros that are defined before the text.
     pub defines: Vec<(String, String)>,
@@ -44,7 +46,7 @@ pub(super) struct Prepared {
 ///
 /// # Errors
 ///
-/// A file that is included, a character that GLSL does not have, and macros that come to too much.
+/// Macros that come to too much.
 pub(super) fn prepare(
     text: &str,
     tokens: &[Token],
@@ -53,7 +55,7 @@ pub(super) fn prepare(
     settings: &BTreeMap<String, String>,
 ) -> Result<Prepared, Fault> {
     let mut bytes = text.as_bytes().to_vec();
-    let is_es = blank_directives(&mut bytes, directives)?;
+    let is_es = blank_directives(&mut bytes, directives);
     let mut defines = Vec::new();
     if is_es {
         defines.push(("GL_ES".to_owned(), "1".to_owned()));
@@ -61,8 +63,7 @@ pub(super) fn prepare(
     let settings = settings.iter().filter(|(name, _)| is_asked_for(directives, name));
     defines.extend(settings.map(|(name, value)| (name.clone(), value.clone())));
     let defined = defines.iter().map(|(name, _)| name.clone()).collect();
-    refuse_strange_characters(&bytes, tokens)?;
-    macros::measure(text, tokens, directives)?;
+    mark_strange_characters(&mut bytes, tokens);
     let mut spare = spare_names(tokens, text);
     let [block, buffer, parameter] =
         [spare.next(), spare.next(), spare.next()].map(|name| name.unwrap_or_else(|| "zz".to_owned()));
@@ -73,7 +74,7 @@ pub(super) fn prepare(
     let word = |index: usize| tokens.get(index).map_or("", |token: &Token| &text[token.at.clone()]);
     let is_name = |index: usize| word(index).starts_with(|c: char| c.is_ascii_alphabetic() || c == '_');
     let in_directive = in_directives(directives, tokens.len());
-    let (mut uniforms, mut initialised) = (Vec::new(), Vec::new());
+    let (mut uniforms, mut textures, mut initialised) = (Vec::new(), Vec::new(), Vec::new());
     // Where the declaration begins that a token belongs to, and where that of the last uniform ends.
     let (mut declaration, mut uniform_end) = (0, 0);
     for (index, token) in tokens.iter().enumerate() {
@@ -109,10 +110,9 @@ pub(super) fn prepare(
                         let comes_first = at == value_type + 1 || word(at - 1) == ",";
                         comes_first && tokens[at].parentheses == 0 && is_name(at)
                     };
-                    if !is_texture {
-                        let declared = (value_type + 1..uniform_end).filter(is_declared);
-                        uniforms.extend(declared.map(|at| word(at).to_owned()));
-                    }
+                    let declared = (value_type + 1..uniform_end).filter(is_declared);
+                    let names = if is_texture { &mut textures } else { &mut uniforms };
+                    names.extend(declared.map(|at| word(at).to_owned()));
                 }
             }
             "=" if token.function.is_none() && word(index + 1) != "=" => {
@@ -129,44 +129,46 @@ pub(super) fn prepare(
         }
     }
     reach::blank_others(&mut bytes, text, tokens, directives, function);
+    macros::measure(text, tokens, directives, |token| bytes[token.at.start] != b' ')?;
     let has_derivatives = derivative::replace(&mut bytes, tokens, function);
     let prelude = if has_derivatives { derivative::GLSL } else { "" };
     // Nothing but whole characters was replaced, by ASCII.
     let prepared = format!("{prelude}{}\nvoid main() {{}}\n", String::from_utf8_lossy(&bytes));
     let prelude = prelude.len();
-    Ok(Prepared { text: prepared, prelude, uniforms, initialised, has_derivatives, defines, defined })
+    Ok(Prepared {
+        text: prepared,
+        prelude,
+        uniforms,
+        initialised,
+        textures,
+        has_derivatives,
+        defines,
+        defined,
+    })
 }
 
-/// Refuses characters that no GLSL has outside of comments and of lines that are not read.
-fn refuse_strange_characters(bytes: &[u8], tokens: &[Token]) -> Result<(), Fault> {
+/// Puts `#` in the place of characters that no GLSL has outside of comments: the preprocessor refuses one within a line,
+/// but where a condition leaves it out.
+fn mark_strange_characters(bytes: &mut [u8], tokens: &[Token]) {
+    let is_strange = |byte: u8| !byte.is_ascii() || byte.is_ascii_control() || b"@$`'\"".contains(&byte);
     for token in tokens {
-        let word = String::from_utf8_lossy(&bytes[token.at.clone()]);
-        if !word.is_ascii() || word.bytes().any(|byte| byte.is_ascii_control() || b"@$`'".contains(&byte)) {
-            return Err(Fault::new(format!("{word:?} is no character of GLSL")).at(Some(token.at.clone())));
-        }
+        bytes[token.at.clone()].iter_mut().filter(|byte| is_strange(**byte)).for_each(|byte| *byte = b'#');
     }
-    Ok(())
 }
 
 /// Blanks directives that only tell a driver something; returns whether the version is one of OpenGL ES.
-fn blank_directives(bytes: &mut [u8], directives: &[Directive<'_>]) -> Result<bool, Fault> {
+fn blank_directives(bytes: &mut [u8], directives: &[Directive<'_>]) -> bool {
     let mut is_es = false;
     for directive in directives {
-        match directive.name() {
-            "include" => {
-                let message = "files are not included; paste the text of this one";
-                return Err(Fault::new(message).at(Some(directive.at.clone())));
-            }
-            name @ ("version" | "extension" | "pragma" | "line") => {
-                is_es |= name == "version"
-                    && (directive.words[2..].contains(&"es") || directive.words.get(2) == Some(&"100"));
-                let line = &mut bytes[directive.at.clone()];
-                line.iter_mut().filter(|byte| !byte.is_ascii_whitespace()).for_each(|byte| *byte = b' ');
-            }
-            _ => {}
+        let name = directive.name();
+        if matches!(name, "version" | "extension" | "pragma" | "line") {
+            is_es |= name == "version"
+                && (directive.words[2..].contains(&"es") || directive.words.get(2) == Some(&"100"));
+            let line = &mut bytes[directive.at.clone()];
+            line.iter_mut().filter(|byte| !byte.is_ascii_whitespace()).for_each(|byte| *byte = b' ');
         }
     }
-    Ok(is_es)
+    is_es
 }
 
 /// Names of two letters that the text does not use.

@@ -1,10 +1,11 @@
 //! What naga's parser of GLSL says, in the words of the language.
 
 use super::super::error::Fault;
+use core::ops::Range;
 use naga::front::glsl::{ErrorKind, ExpectedToken, ParseErrors};
 
-/// The first error of a text.
-pub(super) fn said(errors: &ParseErrors, text: &str) -> Fault {
+/// The first error of a text, which is shown as the user wrote it; `textures` are names that were taken out of it.
+pub(super) fn said(errors: &ParseErrors, text: &str, textures: &[String]) -> Fault {
     let Some(error) = errors.errors.first() else { return Fault::new("it is no GLSL") };
     let at = error.meta.to_range();
     let there = at.clone().and_then(|at| text.get(at)).unwrap_or_default();
@@ -14,19 +15,34 @@ pub(super) fn said(errors: &ParseErrors, text: &str) -> Fault {
             let expected: Vec<_> = expected.iter().map(sign).collect();
             format!("expected {}, found `{there}`", expected.join(" or "))
         }
+        ErrorKind::UnknownVariable(name) if textures.contains(name) => format!(
+            "`{name}` is a texture, which is not there when the function runs alone: make what is read of it a parameter"
+        ),
         ErrorKind::UnknownVariable(name) => unknown(name, text),
-        ErrorKind::PreprocessorError(error) if format!("{error:?}") == "ErrorDirective" => {
-            let start = at.clone().map_or(0, |at| {
-                text.get(..at.start).unwrap_or_default().rfind('\n').map_or(0, |end| end + 1)
-            });
-            format!("the file says: {}", text[start..].lines().next().unwrap_or_default().trim())
-        }
-        ErrorKind::PreprocessorError(error) => {
-            format!("the preprocessor stops here: {}", in_words(&format!("{error:?}")))
-        }
+        ErrorKind::PreprocessorError(error) => return preprocessor(&format!("{error:?}"), text, at),
         other => other.to_string(),
     };
     Fault::new(message).at(at)
+}
+
+/// What the preprocessor says, by the name of its error.
+fn preprocessor(error: &str, text: &str, at: Option<Range<usize>>) -> Fault {
+    let place = at.clone().map_or(0, |at| at.start);
+    let start = text.get(..place).unwrap_or_default().rfind('\n').map_or(0, |end| end + 1);
+    let line = text[start..].lines().next().unwrap_or_default().trim();
+    let here = text.get(place..).and_then(|rest| rest.chars().next());
+    let directive = line.strip_prefix('#').map_or("", str::trim_start);
+    match here {
+        _ if error == "ErrorDirective" => Fault::new(format!("the file says: {line}")).at(at),
+        Some(strange) if error == "UnexpectedHash" && strange != '#' => {
+            Fault::new(format!("{:?} is no character of GLSL", strange.to_string())).at(at)
+        }
+        _ if error == "UnknownDirective" && directive.starts_with("include") => {
+            let sign = start + text[start..].find('#').unwrap_or(0);
+            Fault::new("files are not included; paste the text of this one").at(Some(sign..sign + 1))
+        }
+        _ => Fault::new(format!("the preprocessor stops here: {}", in_words(error))).at(at),
+    }
 }
 
 /// A name without a value: perhaps a macro that comes back to itself, or one that is not defined.
