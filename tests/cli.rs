@@ -721,6 +721,8 @@ fn what_is_no_file_is_written_through() {
     let text = succeed(&["shader"], "");
     assert_eq!(succeed(&["shader", "--out", "/dev/stdout"], ""), text);
     assert_eq!(succeed(&["shader", "--out", "/proc/self/fd/1"], ""), text);
+    let full = run(&["shader", "--out", "/dev/full"], "");
+    assert_fails(&full, "", "cannot write /dev/full: No space left on device");
 }
 
 #[test]
