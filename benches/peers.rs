@@ -76,7 +76,7 @@ fn main() {
             );
         }
         #[cfg(feature = "gpu")]
-        device::race(&devices, Batch::new(listing), &pool);
+        device::race(&devices, &batches, &pool);
         for (name, program) in &peers {
             let thresholds = folder.path().join("thresholds");
             let output = Command::new(program).args([&columns, &thresholds]).arg(ROUNDS.to_string()).output();

@@ -59,8 +59,8 @@ impl Contestant {
     }
 }
 
-/// Prints the fastest and the middle round of every device, and of ours on all threads.
-pub fn race(contestants: &[Contestant], batch: Batch, pool: &Pool<f32>) {
+/// Prints the fastest and the middle round of every device, and of each of ours on all threads.
+pub fn race(contestants: &[Contestant], batches: &[Batch], pool: &Pool<f32>) {
     let footprints = pool.footprints(0).iter().copied().cycle().take(THRESHOLDS as usize);
     let columns: ColumnBuffer<f32> = footprints.collect();
     let mut out = vec![0.0; columns.columns().len()];
@@ -74,14 +74,16 @@ pub fn race(contestants: &[Contestant], batch: Batch, pool: &Pool<f32>) {
             nanoseconds(times[times.len() / 2])
         );
     };
-    line(
-        &format!("ours, {}, {}, {} threads", batch.tier, batch.isa, rayon::current_num_threads()),
-        Box::new(|_| {
-            let start = Instant::now();
-            batch.par_thresholds(&columns.columns(), &mut out);
-            start.elapsed()
-        }),
-    );
+    for batch in batches {
+        line(
+            &format!("ours, {}, {}, {} threads", batch.tier, batch.isa, rayon::current_num_threads()),
+            Box::new(|_| {
+                let start = Instant::now();
+                batch.par_thresholds(&columns.columns(), &mut out);
+                start.elapsed()
+            }),
+        );
+    }
     for Contestant { name, listing, inputs } in contestants {
         for (what, program) in [("Listing 1", listing), ("of which inputs", inputs)] {
             line(
