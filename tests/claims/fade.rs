@@ -1,6 +1,6 @@
 //! Noise that fades in: §7.1.
 
-use crate::measure::{CHIS, chis, list, mean, visible};
+use crate::measure::{CHIS, chis, list, mean, percent, share, visible};
 use crate::row::{Measured, Row, judge};
 use hashed_alpha::threshold::fade_in::{anisotropy, anisotropy_literal, blend, fade_in};
 
@@ -61,29 +61,72 @@ fn quadratic() -> Measured {
     judge(5_u64, square.iter().zip(&line).all(|(a, b)| a < b), false, seen)
 }
 
+/// The share of alpha 0.3 that is kept at a level, with n = 6.
+fn kept_at(lod: f64) -> f64 {
+    mean(chis().map(|chi| visible(0.3, fade_in(chi, blend(lod, 6.0)))))
+}
+
 fn grazing() -> Measured {
-    // Sixteen times as long as wide: level 1.5 is read where the longer side has level 5.5.
-    let factor = anisotropy([16.0, 1.0]);
-    let kept = |lod: f64| mean(chis().map(|chi| visible(0.3, fade_in(chi, blend(lod, 6.0)))));
-    let (without, with) = (kept(1.5), kept(factor * 1.5));
+    let levels: Vec<f64> = (0..=10).map(|half| 0.5 * f64::from(half)).collect();
+    let ratios = [2.0, 4.0, 8.0, 16.0_f64];
+    let pairs: Vec<(f64, f64)> = ratios.iter().flat_map(|&r| levels.iter().map(move |&lod| (r, lod))).collect();
+    // Read isotropically, a footprint of that length has a level coarser by the logarithm: what Eq. 5 was made for.
+    let due: Vec<bool> = pairs.iter().map(|(r, lod)| kept_at(lod + libm::log2(*r)) > 0.27).collect();
+    let kept = |level: &dyn Fn(f64, f64) -> f64, due_ones: bool| {
+        let of = pairs.iter().zip(&due).filter(|(_, due)| **due == due_ones);
+        share(of.map(|(&(r, lod), _)| kept_at(level(r, lod)) > 0.27))
+    };
+    let (without, with) = (kept(&|_, lod| lod, true), kept(&|r, lod| anisotropy([r, 1.0]) * lod, true));
+    let early = kept(&|r, lod| anisotropy([r, 1.0]) * lod, false);
+    let nothing = kept_at(anisotropy([16.0, 1.0]) * 0.0);
     let seen = format!(
-        "alpha 0.3, level 1.5, anisotropy 16, n = 6: kept {without:.3} by Eq. 5, {with:.3} with the factor"
+        "alpha 0.3, n = 6, anisotropy 2 to 16, levels 0 to 5: where an isotropic footprint of the same length keeps it, Eq. 5 \
+         does in {}, with the factor in {}; elsewhere with the factor in {}; at level 0 the factor has nothing to scale, anisotropy \
+         16 keeps {nothing:.3}",
+        percent(without),
+        percent(with),
+        percent(early)
     );
-    judge(2 * CHIS, without == 0.0 && (with - 0.3).abs() < 0.01, false, seen)
+    judge(pairs.len() as u64 * u64::from(CHIS), without < 0.5 && with == 1.0, without < with && with > 0.9, seen)
+}
+
+/// How long a footprint is over how wide, by the singular values of its two derivatives.
+fn elongation([[a, b], [c, d]]: [[f64; 2]; 2]) -> f64 {
+    let (squares, area) = (a * a + b * b + c * c + d * d, (a * d - b * c).abs());
+    let root = (squares * squares - 4.0 * area * area).max(0.0).sqrt();
+    (0.5 * (squares + root)).sqrt() / (0.5 * (squares - root)).sqrt()
+}
+
+/// The ratio of lengths over the elongation, for a texture that is stretched along an axis of the image turned by so many
+/// degrees.
+fn ratio_of_lengths(stretch: f64, degrees: f64) -> f64 {
+    let (sine, cosine) = (libm::sin(degrees.to_radians()), libm::cos(degrees.to_radians()));
+    let columns = [[stretch * cosine, sine], [-stretch * sine, cosine]];
+    anisotropy_literal(columns.map(|[x, y]| libm::hypot(x, y))) / elongation(columns)
 }
 
 fn anisotropy_of_all() -> Measured {
-    let lengths = [0.0, 1e-30, 0.25, 1.0, 4.0, 1e30];
-    let pairs = lengths.into_iter().flat_map(|x| lengths.into_iter().map(move |y| [x, y]));
-    let (with_zero, without): (Vec<_>, Vec<_>) = pairs.partition(|pair| pair.contains(&0.0));
-    let wrong =
-        |pairs: &[[f64; 2]]| pairs.iter().filter(|pair| !anisotropy_literal(**pair).is_finite()).count();
+    let over = |degrees: f64| [2.0, 4.0, 8.0, 16.0].map(|stretch| ratio_of_lengths(stretch, degrees));
+    let [straight, slanted, diagonal] = [0.0, 20.0, 45.0].map(over);
+    let sheared = [[1.0, 0.0], [0.99, 0.14]];
+    let lengths = sheared.map(|[x, y]| libm::hypot(x, y));
+    let without_length = [anisotropy_literal([0.0, 1.0]), anisotropy_literal([0.0, 0.0])];
     let seen = format!(
-        "not finite for {} of {} pairs with a 0 among them, for {} of {} others",
-        wrong(&with_zero),
-        with_zero.len(),
-        wrong(&without),
-        without.len()
+        "over the elongation of the footprint, stretched 2, 4, 8, 16 times: {} along an axis of the image, {} at 20 degrees, {} \
+         at 45; derivatives (1, 0) and (0.99, 0.14): {:.1} for {:.1}; with one or both of no length: {}, {}",
+        list(straight),
+        list(slanted),
+        list(diagonal),
+        anisotropy_literal(lengths),
+        elongation(sheared),
+        without_length[0],
+        without_length[1]
     );
-    judge(36_u64, wrong(&with_zero) == 0, wrong(&without) == 0, seen)
+    let is_right = |ratios: [f64; 4]| ratios.iter().all(|ratio| (ratio - 1.0).abs() < 0.05);
+    judge(
+        14_u64,
+        is_right(straight) && is_right(slanted) && is_right(diagonal),
+        is_right(straight),
+        seen,
+    )
 }

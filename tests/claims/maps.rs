@@ -57,6 +57,18 @@ pub fn fence(side: usize) -> Map {
     binary(side, |x, y| x % 8 == 3 || y % 8 == 3)
 }
 
+/// Fourteen strands of hair, three texels thick, that hang down by different lengths.
+pub fn strands(side: usize) -> Map {
+    let strands: Vec<_> = (0..14).map(|strand| [0, 1].map(|which| value([strand, which, 2, 0]))).collect();
+    let place = |c: usize| (c as f64 + 0.5) / side as f64;
+    binary(side, |x, y| {
+        strands.iter().any(|&[at, length]| {
+            let bent = 0.05 + 0.9 * at + 0.02 * libm::sin(6.0 * place(y) + 20.0 * length);
+            place(y) < 0.55 + 0.45 * length && (place(x) - bent).abs() < 0.006
+        })
+    })
+}
+
 /// Discs of random place and size: opaque on about a third.
 pub fn leaves(side: usize) -> Map {
     let discs: Vec<_> = (0..60).map(|leaf| [0, 1, 2].map(|which| value([leaf, which, 0, 0]))).collect();
