@@ -173,7 +173,7 @@ fn plans_cost_what_they_predict() {
         let scene = with(&file, effects);
         let study = drawn(&scene);
         for take in &study.takes {
-            let predicted = take.plan.predict(&scene, &textures(&scene, take.plan.textures));
+            let predicted = take.plan.predict(&scene, &textures(&scene, take.plan.textures), &mut || ());
             assert_eq!(take.cost, predicted, "{}: {}", file.name, take.plan.name);
         }
     }
@@ -181,7 +181,7 @@ fn plans_cost_what_they_predict() {
     let scene = ready(small("auto"));
     let study = drawn(&scene);
     let take = &study.takes[0];
-    assert_eq!(take.cost, take.plan.predict(&scene, &textures(&scene, take.plan.textures)));
+    assert_eq!(take.cost, take.plan.predict(&scene, &textures(&scene, take.plan.textures), &mut || ()));
 }
 
 /// What a table leaves behind in a plan: stages by the effect that they simulate.
@@ -523,7 +523,7 @@ proptest! {
             // A single pixel would be 4e-3; averages round.
             let coverage = take.metrics["coverage"];
             prop_assert!((coverage - alpha).abs() < 1e-5, "{coverage} for {alpha}: {}", take.plan.name);
-            let predicted = take.plan.predict(&scene, &textures(&scene, take.plan.textures));
+            let predicted = take.plan.predict(&scene, &textures(&scene, take.plan.textures), &mut || ());
             prop_assert_eq!(take.cost, predicted, "{}", take.plan.name);
         }
     }
@@ -570,4 +570,41 @@ fn a_scene_that_calls_for_nothing_gets_the_plain_alpha_test() {
     };
     assert_eq!(near(0.5).stages, plan(&Effects::default()).stages);
     assert_eq!(traces(&near(40.0), "robust"), 1);
+}
+
+/// Frames of a still scene repeat with the strata of their thresholds, and those of fresh random numbers never do.
+#[test]
+fn a_cycle_of_frames_closes() {
+    let file = small("hair");
+    let still = |effects: &str| {
+        let camera = hashed_alpha::render::view::View { motion: None, ..file.camera.clone() };
+        let effects: Effects = toml::from_str(effects).expect("known effects");
+        with(&SceneFile { camera, ..file.clone() }, effects)
+    };
+    for (source, cycle) in [
+        ("hashed = {}\ntemporal = { frames = 3 }", Some(3)),
+        ("robust = {}\nindependent = { frames = 2 }\ntemporal = { frames = 3 }", Some(6)),
+        ("hashed = {}", Some(1)),
+        ("stochastic = {}\ntemporal = { frames = 3 }", None),
+    ] {
+        for pattern in ["decorrelated", "random"] {
+            let effects = format!("{source}\nalpha_to_coverage = {{ samples = 4, pattern = '{pattern}' }}");
+            let scene = still(&effects);
+            let Takes::Sets(sets) = &scene.file.effects else { panic!("a set was given") };
+            let plan = plan(&sets[0]);
+            assert_eq!(plan.cycle(), cycle, "{effects}");
+            assert!(plan.needs.names().contains(&"place of the pixel, for the threshold"));
+            let textures = textures(&scene, plan.textures);
+            let shot = hashed_alpha::render::study::shots(&scene)[0];
+            let picture =
+                |index: u32| hashed_alpha::render::run::frame(&scene, &textures, &plan, &shot, index).picture;
+            for index in [1, 5] {
+                let later = picture(index + cycle.unwrap_or(3) as u32);
+                assert_eq!(picture(index) == later, cycle.is_some(), "{effects}: {index}");
+            }
+            if cycle.is_some_and(|cycle| cycle > 1) {
+                assert!(picture(1) != picture(2), "{effects}");
+            }
+        }
+    }
 }

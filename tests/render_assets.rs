@@ -211,9 +211,29 @@ fn meshes_that_cannot_be_drawn_are_refused_with_the_reason() {
     fs::write(place("broken.gltf"), &sound[..sound.len() / 2]).expect("written");
     fs::write(place("nothing.gltf"), r#"{"asset":{"version":"2.0"}}"#).expect("written");
     fs::write(place("text.glb"), "no mesh").expect("written");
+    let node = r#""nodes":[{"mesh":0,"#;
+    for (name, from, to) in [
+        ("itself.gltf", node, r#""nodes":[{"mesh":0,"children":[0],"#),
+        ("shared.gltf", node, r#""nodes":[{"children":[1,2]},{"name":"leaf"},{"children":[1]},{"mesh":0,"#),
+        ("indices.gltf", r#""componentType":5123,"count":3"#, r#""componentType":5123,"count":4"#),
+        ("corners.gltf", r#""count":3,"type":"VEC3""#, r#""count":4000,"type":"VEC3""#),
+        ("view.gltf", r#""byteOffset":60"#, r#""byteOffset":66"#),
+        ("endless.gltf", r#""count":3,"type":"VEC2""#, r#""count":4294967295,"type":"VEC2""#),
+        ("kind.gltf", r#""POSITION":0"#, r#""POSITION":2"#),
+    ] {
+        assert!(sound.contains(from), "{name}");
+        fs::write(place(name), sound.replace(from, to)).expect("written");
+    }
     for (name, reason) in [
-        ("texture.gltf", "cannot read"),
-        ("buffer.gltf", "cannot read"),
+        ("texture.gltf", "texture.gltf names image 0, gone.png, which cannot be read"),
+        ("buffer.gltf", "buffer.gltf names buffer 0, gone.bin, which cannot be read"),
+        ("itself.gltf", "node 0 is reached twice"),
+        ("shared.gltf", "node 1 (leaf) is reached twice"),
+        ("indices.gltf", "accessor 2 has 4 elements, more than its buffer view holds"),
+        ("corners.gltf", "accessor 0 has 4000 elements, more than its buffer view holds"),
+        ("view.gltf", "buffer view 2 ends beyond its buffer"),
+        ("endless.gltf", "accessor 1 has 4294967295 elements, too many"),
+        ("kind.gltf", "accessor 2 is of the wrong type for positions"),
         ("wild.gltf", "names a vertex that is not there"),
         ("broken.gltf", "cannot read"),
         ("nothing.gltf", "no scene"),

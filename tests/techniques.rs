@@ -115,7 +115,7 @@ fn combinations_cost_what_they_predict() {
         let file = SceneFile { frames, effects: sets, truth: None, expect: Vec::new(), ..file };
         let scene = prepare(file, Path::new("")).expect("built-in textures");
         let plan = plan(&set);
-        let predicted = plan.predict(&scene, &textures(&scene, plan.textures));
+        let predicted = plan.predict(&scene, &textures(&scene, plan.textures), &mut || ());
         let counted = study(&scene, &mut |_, _| ()).takes[0].cost;
         assert_eq!(counted, predicted, "{name}");
         let (fragments, pixels) = (counted.fragments, 3 * 96 * 96);

@@ -2,6 +2,7 @@
 
 use super::args::ExplainArgs;
 use super::failure::Failure;
+use super::render::bar;
 use super::{Ending, output, scene_files};
 use hashed_alpha::render::plan::plan;
 use hashed_alpha::render::study;
@@ -11,17 +12,22 @@ use std::io::Write;
 /// Prints the plans of every scene.
 pub fn run(args: &ExplainArgs) -> Result<Ending, Failure> {
     let mut results = output::results();
-    for name in scene_files::names(&args.scene) {
-        let scene = scene_files::load(&name, &args.scene)?;
+    for read in scene_files::read_all(&args.scene)? {
+        let scene = read.prepare()?;
         let textures = scene.textures(false);
         let chosen = study::chosen(&scene, &textures);
+        let bar = bar(&scene);
+        let pictures =
+            (chosen.len() * study::shots(&scene).len()) as u64 * u64::from(scene.file.frames.get());
+        bar.set_length(pictures);
         let planned: Vec<Planned> = chosen
             .into_iter()
             .map(|(effects, reasons)| {
                 let plan = plan(&effects);
-                Planned { cost: plan.predict(&scene, &textures), effects, plan, reasons }
+                Planned { cost: plan.predict(&scene, &textures, &mut || bar.inc(1)), effects, plan, reasons }
             })
             .collect();
+        bar.finish_and_clear();
         write_plans(&scene, &planned, &mut results).map_err(Failure::Output)?;
         for planned in planned.iter().filter(|_| args.shader) {
             let text = planned.plan.shader().map_err(|error| Failure::Usage(error.to_string()))?;

@@ -2,7 +2,6 @@
 
 use super::rows::RowError;
 use hashed_alpha::render::file::FileError;
-use hashed_alpha::render::prepare::AssetError;
 use hashed_alpha::report::directory::ReportError;
 use hashed_alpha::shader::own::ShaderError;
 use std::error::Error;
@@ -36,9 +35,6 @@ pub enum Failure {
     /// A scene file is wrong.
     #[error(transparent)]
     Scene(#[from] FileError),
-    /// What a scene names cannot be used.
-    #[error(transparent)]
-    Asset(#[from] AssetError),
     /// Something that was typed does not have a meaning.
     #[error("{0}")]
     Usage(String),
@@ -52,14 +48,19 @@ impl Failure {
 
     /// Returns what happened and, after a colon each, what was behind it.
     pub fn message(&self) -> String {
-        let mut message = self.to_string();
-        let mut cause = self.source();
-        while let Some(error) = cause {
-            message += &format!(": {error}");
-            cause = error.source();
-        }
-        message
+        told(self)
     }
+}
+
+/// Returns an error and, after a colon each, what was behind it.
+pub fn told(error: &dyn Error) -> String {
+    let mut message = error.to_string();
+    let mut cause = error.source();
+    while let Some(error) = cause {
+        message += &format!(": {error}");
+        cause = error.source();
+    }
+    message
 }
 
 #[cfg(test)]

@@ -20,18 +20,18 @@ pub fn run(args: &RenderArgs) -> Result<Ending, Failure> {
     fs::create_dir_all(&args.out).map_err(refused)?;
     let mut results = output::results();
     let mut ending = Ending::Consistent;
-    for name in scene_files::names(&args.scene) {
-        let scene = scene_files::load(&name, &args.scene)?;
-        let bar = ProgressBar::new(0).with_message(scene.file.name.clone());
-        bar.set_style(
-            ProgressStyle::with_template("{msg} {wide_bar} {pos}/{len}")
-                .unwrap_or_else(|_| ProgressStyle::default_bar()),
-        );
+    for read in scene_files::read_all(&args.scene)? {
+        let scene = read.prepare()?;
+        let bar = bar(&scene);
         let study = study(&scene, &mut |done, all| {
             bar.set_length(all);
             bar.set_position(done);
         });
         bar.finish_and_clear();
+        for take in study.takes.iter().filter(|take| take.cost.fragments == 0) {
+            let (scene, take) = (&scene.file.name, &take.plan.name);
+            eprintln!("note: {scene}: {take}: no surface is seen; is the camera at the right place?");
+        }
         let text = json(&scene, &study).map_err(|error| making("numbers", error))?;
         write(&args.out, &scene, &study, &text, args.sequence)?;
         if args.json {
@@ -49,6 +49,16 @@ pub fn run(args: &RenderArgs) -> Result<Ending, Failure> {
     Ok(ending)
 }
 
+/// Shows how far a scene is.
+pub fn bar(scene: &Scene) -> ProgressBar {
+    let bar = ProgressBar::new(0).with_message(scene.file.name.clone());
+    bar.set_style(
+        ProgressStyle::with_template("{msg} {wide_bar} {pos}/{len}")
+            .unwrap_or_else(|_| ProgressStyle::default_bar()),
+    );
+    bar
+}
+
 fn making(what: &str, error: impl Display) -> Failure {
     Failure::Usage(format!("cannot make the {what}: {error}"))
 }
@@ -63,7 +73,9 @@ fn write(folder: &Path, scene: &Scene, study: &Study, json: &str, sequence: bool
     if sequence {
         for take in &study.takes {
             let moving = animation(&take.sequence, 10).map_err(|error| making("sequence", error))?;
-            let file = format!("{name}-{}.png", take.plan.name.replace([' ', '/'], "-"));
+            // Whatever may lead to another folder stays out.
+            let safe = |letter: char| letter.is_alphanumeric() || "-_.,+()".contains(letter);
+            let file = format!("{name}-{}.png", take.plan.name.replace(|letter| !safe(letter), "-"));
             write_atomically(&folder.join(file), &moving)?;
         }
     }

@@ -105,14 +105,11 @@ effects! {
     average: Average, "§7.2", "Averages frames, as temporal antialiasing does", "samples: one blend a pixel and frame";
 }
 
-/// The greatest number of samples in a pixel.
-pub const MOST_SAMPLES: u32 = 64;
-
 /// Says what is wrong with a set of effects.
 ///
 /// # Errors
 ///
-/// Two thresholds where one is meant, effects that need another one, and numbers out of their range.
+/// Two thresholds where one is meant, and effects that need another one. Numbers are checked as they are read.
 pub fn check(effects: &Effects) -> Result<(), String> {
     let sources = [
         ("fixed", effects.fixed.is_some()),
@@ -148,50 +145,13 @@ pub fn check(effects: &Effects) -> Result<(), String> {
     }
     let noisy = !matches!(sources[..], [] | ["fixed" | "level_threshold" | "screen_door"]);
     let hashes = matches!(sources[..], ["hashed" | "robust"]);
-    let unit = |what: &str, value: f64| {
-        if (0.0..=1.0).contains(&value) { Ok(()) } else { Err(format!("`{what}` must be in [0, 1]")) }
-    };
-    let positive = |what: &str, value: f64| {
-        if value.is_finite() && value > 0.0 {
-            Ok(())
-        } else {
-            Err(format!("`{what}` must be a finite number above 0"))
-        }
-    };
-    if let Some(fixed) = &effects.fixed {
-        unit("fixed.threshold", f64::from(fixed.threshold))?;
-        positive("fixed.threshold", f64::from(fixed.threshold))?;
-    }
-    if let Some(hashed) = &effects.hashed {
-        positive("hashed.hash_scale", hashed.hash_scale)?;
-    }
-    if let Some(robust) = &effects.robust {
-        positive("robust.hash_scale", robust.hash_scale)?;
-        if matches!(robust.variant, Variant::Linear | Variant::Single) {
-            return Err("`robust.variant` must be isotropic or anisotropic".to_owned());
-        }
-    }
-    if let Some(fade_in) = &effects.fade_in {
-        positive("fade_in.full_noise_lod", f64::from(fade_in.full_noise_lod))?;
-        unit("fade_in.authored", f64::from(fade_in.authored))?;
-        positive("fade_in.authored", f64::from(fade_in.authored))?;
-    }
-    if let Some(foveated) = &effects.foveated {
-        let gaze = foveated.gaze();
-        if !gaze.centre.iter().chain([&gaze.radius, &gaze.slope]).all(|number| number.is_finite())
-            || gaze.radius < 0.0
-            || gaze.slope < 0.0
-        {
-            return Err("`foveated` needs a finite gaze, and a radius and a slope from 0 on".to_owned());
-        }
-        if effects.finest_level.is_some() {
-            return Err("`foveated` reads coarser levels and `finest_level` none; keep one".to_owned());
-        }
-    }
-    if let Some(limited) = &effects.limited_level
-        && !(limited.level >= 0.0 && limited.level.is_finite())
+    if let Some(robust) = &effects.robust
+        && matches!(robust.variant, Variant::Linear | Variant::Single)
     {
-        return Err("`limited_level.level` must be a level from 0 on".to_owned());
+        return Err("`robust.variant` must be isotropic or anisotropic".to_owned());
+    }
+    if effects.foveated.is_some() && effects.finest_level.is_some() {
+        return Err("`foveated` reads coarser levels and `finest_level` none; keep one".to_owned());
     }
     if effects.finest_level.is_some() && effects.limited_level.is_some() {
         return Err("`finest_level` and `limited_level` both choose the level; keep one".to_owned());
@@ -219,9 +179,6 @@ pub fn check(effects: &Effects) -> Result<(), String> {
         }
     }
     if let Some(multisampling) = &effects.multisampling {
-        if multisampling.samples.get() > MOST_SAMPLES {
-            return Err(format!("`multisampling.samples` must be from 1 to {MOST_SAMPLES}"));
-        }
         if effects.alpha_to_coverage.as_ref().is_some_and(|c| c.samples != multisampling.samples) {
             return Err("`multisampling` and `alpha_to_coverage` must have the same samples".to_owned());
         }
@@ -238,9 +195,6 @@ pub fn check(effects: &Effects) -> Result<(), String> {
         }
     }
     if let Some(coverage) = &effects.alpha_to_coverage {
-        if coverage.samples.get() > MOST_SAMPLES {
-            return Err(format!("`alpha_to_coverage.samples` must be from 1 to {MOST_SAMPLES}"));
-        }
         match coverage.pattern {
             Pattern::Regular | Pattern::Hardware | Pattern::Pixel if !sources.is_empty() => {
                 let pattern = coverage.pattern.name();
@@ -272,7 +226,6 @@ pub fn check(effects: &Effects) -> Result<(), String> {
         return Err("`test_then_blend` would fill the holes of `stipple`; keep one".to_owned());
     }
     if let Some(occlusion) = &effects.occlusion {
-        positive("occlusion.reach", occlusion.reach)?;
         if matches!(occlusion.variant, Variant::Linear | Variant::Single) {
             return Err("`occlusion.variant` must be isotropic or anisotropic".to_owned());
         }
@@ -283,18 +236,8 @@ pub fn check(effects: &Effects) -> Result<(), String> {
             );
         }
     }
-    if let Some(history) = &effects.history
-        && !(history.weight > 0.0 && history.weight <= 1.0)
-    {
-        return Err("`history.weight` must be in (0, 1]".to_owned());
-    }
     if effects.scaled_alpha.is_some() && effects.scaled_texels.is_some() {
         return Err("`scaled_alpha` and `scaled_texels` both scale alphas; keep one".to_owned());
-    }
-    if let Some(supersampling) = &effects.supersampling
-        && supersampling.samples.get() > 16
-    {
-        return Err("`supersampling.samples` must be from 1 to 16".to_owned());
     }
     Ok(())
 }

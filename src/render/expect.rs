@@ -1,5 +1,6 @@
 //! What a scene must show, in a form that a machine checks.
 
+use super::mistake::nearest;
 use super::study::Take;
 use serde::Deserialize;
 
@@ -28,6 +29,31 @@ pub struct Checked {
     pub holds: bool,
 }
 
+/// Finds what is wrong with an expectation before anything is drawn: its key, and what. `takes` are the names of the takes,
+/// if they are known.
+pub(super) fn check_words(
+    expectation: &Expectation,
+    takes: Option<&[String]>,
+) -> Result<(), (&'static str, String)> {
+    let Expectation { take, than, at_least, at_most, .. } = expectation;
+    let named = [("take", Some(take)), ("than", than.as_ref())];
+    for (key, name) in named.into_iter().filter_map(|(key, name)| Some((key, name?))) {
+        if let Some(takes) = takes.filter(|takes| !takes.contains(name)) {
+            let known: Vec<&str> = takes.iter().map(String::as_str).collect();
+            let likely =
+                nearest(name, &known).map_or_else(String::new, |near| format!(" Did you mean `{near}`?"));
+            return Err((key, format!("no take is called `{name}`.{likely} Takes are {}", known.join(", "))));
+        }
+    }
+    match (at_least, at_most) {
+        (None, None) => Err(("metric", "there is no bound: add `at_least`, `at_most` or both".to_owned())),
+        (Some(low), Some(high)) if low > high => {
+            Err(("at_least", format!("nothing is at least {low} and at most {high}")))
+        }
+        _ => Ok(()),
+    }
+}
+
 /// Checks an expectation. A take or a number that does not exist fails it.
 #[must_use]
 pub fn check(expectation: &Expectation, takes: &[Take]) -> Checked {
@@ -35,7 +61,8 @@ pub fn check(expectation: &Expectation, takes: &[Take]) -> Checked {
     let find = |name: &str| takes.iter().find(|take| take.plan.name == name)?.metrics.get(metric).copied();
     let (Some(found), Some(unit)) = (find(take), than.as_deref().map_or(Some(1.0), find)) else {
         let known: Vec<&str> = takes.iter().map(|take| take.plan.name.as_str()).collect();
-        let numbers = takes.first().map(|take| take.metrics.keys().cloned().collect::<Vec<_>>().join(", "));
+        let measured = takes.iter().find(|of| of.plan.name == *take).or(takes.first());
+        let numbers = measured.map(|take| take.metrics.keys().cloned().collect::<Vec<_>>().join(", "));
         let text = format!(
             "{take}: {metric} was not measured; takes are {}; numbers are {}",
             known.join(", "),

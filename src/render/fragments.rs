@@ -17,6 +17,8 @@ pub struct Needs {
     pub lod: bool,
     /// The index of the frame.
     pub frame: bool,
+    /// The pixel, where thresholds differ by it.
+    pub pixel: bool,
     /// The share of its pixel that it covers; every pixel that a triangle touches is drawn then.
     pub coverage: bool,
     /// The depth of what each pixel shows.
@@ -36,6 +38,7 @@ impl Needs {
             (self.layer, "index of the layer"),
             (self.lod, "level of detail"),
             (self.frame, "index of the frame"),
+            (self.pixel, "place of the pixel, for the threshold"),
             (self.coverage, "share of the pixel that is covered"),
             (self.depth, "depth of what each pixel shows"),
             (self.samples.is_some(), "samples that geometry covers"),

@@ -2,18 +2,22 @@
 
 use super::file::Channel;
 use super::image_file::{self, ImageError};
+use super::limits::MOST_TRIANGLES;
 use super::mesh::{Mesh, Triangle, Vertex};
 use super::prepare::Cover;
 use super::texture::{Filter, Level, Wrap};
 use glam::{DMat4, DVec2, DVec3};
+use gltf::accessor::sparse;
 use gltf::image::Format;
+use gltf::{Semantic, buffer};
 use image::{DynamicImage, ImageBuffer};
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// A mesh file that cannot be drawn.
 #[derive(Debug, thiserror::Error)]
 pub enum MeshError {
-    /// It is no glTF, a broken one, or misses a file that it names.
+    /// It is no glTF, or a broken one.
     #[error("cannot read {path} as glTF")]
     Read {
         /// The file.
@@ -21,7 +25,17 @@ pub enum MeshError {
         /// What the reader says.
         source: Box<gltf::Error>,
     },
-    /// It has nothing to draw.
+    /// A buffer or an image that it names cannot be read.
+    #[error("{path} names {part}, which cannot be read")]
+    Part {
+        /// The file.
+        path: PathBuf,
+        /// The file that it names, or what stands in its place.
+        part: String,
+        /// What the reader says.
+        source: Box<gltf::Error>,
+    },
+    /// It has nothing to draw, or it is not what it says.
     #[error("{path}: {what}")]
     Content {
         /// The file.
@@ -56,18 +70,46 @@ pub struct Found {
 pub fn read(path: &Path, scale: f64, textured: bool) -> Result<Found, MeshError> {
     let content = |what: String| MeshError::Content { path: path.into(), what };
     let fail = |source| MeshError::Read { path: path.into(), source: Box::new(source) };
-    let gltf::Gltf { document, blob } = gltf::Gltf::open(path).map_err(fail)?;
+    let gltf::Gltf { document, mut blob } = gltf::Gltf::open(path).map_err(fail)?;
     let folder = path.parent();
-    let buffers = gltf::import_buffers(&document, folder, blob).map_err(fail)?;
-    let images =
-        if textured { gltf::import_images(&document, folder, &buffers).map_err(fail)? } else { Vec::new() };
+    let part = |part: String, source| MeshError::Part { path: path.into(), part, source: Box::new(source) };
+    let mut buffers = Vec::new();
+    for buffer in document.buffers() {
+        let name = match buffer.source() {
+            buffer::Source::Uri(uri) => named("buffer", buffer.index(), uri),
+            buffer::Source::Bin => format!("buffer {}", buffer.index()),
+        };
+        let data = buffer::Data::from_source_and_blob(buffer.source(), folder, &mut blob)
+            .map_err(|source| part(name.clone(), source))?;
+        if data.len() < buffer.length() {
+            let (is, says) = (data.len(), buffer.length());
+            return Err(content(format!("{name} has {is} bytes in place of {says}")));
+        }
+        buffers.push(data);
+    }
+    lengths(&document, &buffers).map_err(content)?;
+    let mut images = Vec::new();
+    for image in document.images().filter(|_| textured) {
+        let name = match image.source() {
+            gltf::image::Source::Uri { uri, .. } => named("image", image.index(), uri),
+            gltf::image::Source::View { .. } => format!("image {}", image.index()),
+        };
+        let data = gltf::image::Data::from_source(image.source(), folder, &buffers);
+        images.push(data.map_err(|source| part(name, source))?);
+    }
     let mut found = Found { vertices: Vec::new(), triangles: Vec::new(), textures: Vec::new() };
     let mut of_image = std::collections::BTreeMap::new();
     let scene = document.default_scene().or_else(|| document.scenes().next());
     let scene = scene.ok_or_else(|| content("it has no scene".to_owned()))?;
     let mut open: Vec<(gltf::Node<'_>, DMat4)> =
         scene.nodes().map(|node| (node, DMat4::from_scale(DVec3::splat(scale)))).collect();
+    let mut seen = BTreeSet::new();
     while let Some((node, parent)) = open.pop() {
+        if !seen.insert(node.index()) {
+            let name = node.name().map_or_else(String::new, |name| format!(" ({name})"));
+            let what = "is reached twice, from itself or from two others: nodes must be a tree";
+            return Err(content(format!("node {}{name} {what}", node.index())));
+        }
         let local = node.transform().matrix().map(|column| column.map(f64::from));
         let to_object = parent * DMat4::from_cols_array_2d(&local);
         open.extend(node.children().map(|child| (child, to_object)));
@@ -75,6 +117,7 @@ pub fn read(path: &Path, scale: f64, textured: bool) -> Result<Found, MeshError>
             if primitive.mode() != gltf::mesh::Mode::Triangles {
                 continue;
             }
+            kinds(&primitive).map_err(content)?;
             let reader = primitive.reader(|buffer| buffers.get(buffer.index()).map(|data| &data.0[..]));
             let Some(positions) = reader.read_positions() else { continue };
             let mut texcoords = reader.read_tex_coords(0).map(gltf::mesh::util::ReadTexCoords::into_f32);
@@ -114,12 +157,78 @@ pub fn read(path: &Path, scale: f64, textured: bool) -> Result<Found, MeshError>
                 }
                 found.triangles.push(([0, 1, 2].map(|c| first + corners[c]), texture));
             }
+            if found.triangles.len().max(found.vertices.len()) as u64 > MOST_TRIANGLES {
+                return Err(content(format!("it has more than {MOST_TRIANGLES} triangles or vertices")));
+            }
         }
     }
     if found.triangles.is_empty() {
         return Err(content("it has no triangles".to_owned()));
     }
     Ok(found)
+}
+
+/// A buffer or an image by the file that its address names.
+fn named(what: &str, index: usize, uri: &str) -> String {
+    if uri.starts_with("data:") { format!("{what} {index}") } else { format!("{what} {index}, {uri}") }
+}
+
+/// Finds what is longer than where it lies: the reader stops at the end without a word, or panics.
+fn lengths(document: &gltf::Document, buffers: &[buffer::Data]) -> Result<(), String> {
+    for view in document.views() {
+        let end = view.offset().checked_add(view.length());
+        let length = buffers.get(view.buffer().index()).map_or(0, |data| data.len());
+        if end.is_none_or(|end| end > length) {
+            return Err(format!("buffer view {} ends beyond its buffer of {length} bytes", view.index()));
+        }
+    }
+    let fits = |count: usize, offset: usize, size: usize, view: &buffer::View<'_>| {
+        let stride = view.stride().unwrap_or(size);
+        let last = count.saturating_sub(1).checked_mul(stride);
+        last.and_then(|last| last.checked_add(offset)?.checked_add(size))
+            .is_some_and(|end| end <= view.length())
+    };
+    for accessor in document.accessors() {
+        let (index, count) = (accessor.index(), accessor.count());
+        if count as u64 > 3 * MOST_TRIANGLES {
+            return Err(format!("accessor {index} has {count} elements, too many"));
+        }
+        let size = accessor.size();
+        let own = accessor.view().is_none_or(|view| fits(count, accessor.offset(), size, &view));
+        let sparse = accessor.sparse().is_none_or(|sparse| {
+            let (indices, values) = (sparse.indices(), sparse.values());
+            let width = match indices.index_type() {
+                sparse::IndexType::U8 => 1,
+                sparse::IndexType::U16 => 2,
+                sparse::IndexType::U32 => 4,
+            };
+            let count = sparse.count() as usize;
+            fits(count, indices.offset() as usize, width, &indices.view())
+                && fits(count, values.offset() as usize, size, &values.view())
+        });
+        if !(own && sparse) {
+            return Err(format!("accessor {index} has {count} elements, more than its buffer view holds"));
+        }
+    }
+    Ok(())
+}
+
+/// Finds numbers of a kind that the reader does not expect.
+fn kinds(primitive: &gltf::Primitive<'_>) -> Result<(), String> {
+    use gltf::accessor::{DataType, Dimensions};
+    let is =
+        |what: &str, accessor: Option<gltf::Accessor<'_>>, of: Dimensions, types: &[DataType]| match accessor
+        {
+            Some(found) if found.dimensions() != of || !types.contains(&found.data_type()) => {
+                Err(format!("accessor {} is of the wrong type for {what}", found.index()))
+            }
+            _ => Ok(()),
+        };
+    let (bytes, words) = (DataType::U8, DataType::U16);
+    is("positions", primitive.get(&Semantic::Positions), Dimensions::Vec3, &[DataType::F32])?;
+    let texcoords = primitive.get(&Semantic::TexCoords(0));
+    is("texture coordinates", texcoords, Dimensions::Vec2, &[DataType::F32, bytes, words])?;
+    is("indices", primitive.indices(), Dimensions::Scalar, &[bytes, words, DataType::U32])
 }
 
 /// Adds what was found to a scene; `named` is the texture that covers all of it in place of its own.

@@ -4,6 +4,7 @@
 //! | module | holds |
 //! |---|---|
 //! | [`file`](mod@file) | the TOML form of a scene, checked |
+//! | `limits`, `places`, `mistake` | bounds of its numbers, where its keys stand, what was likely meant |
 //! | [`effects`], [`tables`] | one optional table an effect, and the list of all |
 //! | [`view`], [`surface`], [`texture`] | who looks, what is seen, what covers it |
 //! | [`procedural`], [`image_file`], [`gltf_file`] | where textures and meshes come from |
@@ -34,11 +35,13 @@ pub mod gallery;
 pub mod gltf_file;
 pub mod image_file;
 pub mod layers;
+mod limits;
 pub mod mesh;
 pub mod metrics;
 mod mistake;
 pub mod occlusion;
 pub mod picture;
+mod places;
 pub mod plan;
 mod plan_shader;
 pub mod prepare;

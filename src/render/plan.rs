@@ -158,6 +158,9 @@ pub fn plan(effects: &Effects) -> Plan {
                 .chain([effects.independent.is_some(), effects.jitter.is_some()])
                 .chain(effects.occlusion.map(|occlusion| occlusion.chi == Chi::Random))
                 .any(|reads| reads),
+            pixel: permuted
+                || coverage.is_some_and(|coverage| coverage.pattern == Pattern::Pixel)
+                || stages.iter().any(|stage| matches!(stage, Stage::ScreenDoor(_) | Stage::Stipple(_))),
             coverage: effects.conservative.is_some(),
             depth: effects.history.as_ref().is_some_and(|history| history.reproject),
         },
@@ -260,9 +263,9 @@ impl Plan {
     }
 
     /// Predicts what all shots of a scene cost, from the fragments that its geometry makes; nothing is shaded. Only rays
-    /// start where the alpha test lets a surface show: a plan with rays is drawn once without them.
-    #[must_use]
-    pub fn predict(&self, scene: &Scene, textures: &[Texture]) -> Cost {
+    /// start where the alpha test lets a surface show: a plan with rays is drawn once without them. `progress` is told of every
+    /// frame.
+    pub fn predict(&self, scene: &Scene, textures: &[Texture], progress: &mut dyn FnMut()) -> Cost {
         let pixels = scene.file.resolution.map(u64::from).iter().product();
         let tested = self.before_rays();
         let mut cost = Cost::default();
@@ -274,6 +277,7 @@ impl Plan {
                     drawn.picture.coverage.iter().filter(|&&share| share > 0.0).count() as u64
                 });
                 cost += self.cost_of_frame(Census { fragments, texels, pixels, shown });
+                progress();
             }
         }
         cost
@@ -317,13 +321,19 @@ impl Plan {
         self.stages.iter().any(|stage| matches!(stage, Stage::History(_) | Stage::Average(_)))
     }
 
-    /// Returns whether the thresholds of a still scene change from frame to frame. Otherwise the strata of samples do not
-    /// either: Eq. 9 hashes them.
+    /// Returns the number of frames after which the thresholds of a still scene repeat; `None` where they never do. The
+    /// strata of samples, which Eq. 9 hashes, repeat with them.
     #[must_use]
-    pub fn changes(&self) -> bool {
-        let changes =
-            |stage: &Stage| matches!(stage, Stage::Stochastic | Stage::Stratify(..) | Stage::Independent(..));
-        self.stages.iter().any(changes)
+    pub fn cycle(&self) -> Option<u64> {
+        self.stages.iter().try_fold(1, |all: u64, stage| match stage {
+            Stage::Stochastic => None,
+            Stage::Stratify(frames, _) | Stage::Independent(frames, _) => {
+                let frames = u64::from(frames.get());
+                // The least number that both divide.
+                (1..=frames).map(|times| times * all).find(|multiple| multiple % frames == 0)
+            }
+            _ => Some(all),
+        })
     }
 
     /// Returns how far the image is moved in a frame, in pixels of the places.

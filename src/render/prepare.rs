@@ -36,11 +36,32 @@ pub struct Cover {
 #[derive(Debug, thiserror::Error)]
 pub enum AssetError {
     /// An image.
-    #[error(transparent)]
-    Image(#[from] ImageError),
+    #[error("`texture.image.file`")]
+    Image {
+        /// The number of the texture in the file, from 0.
+        texture: usize,
+        /// What is wrong with it.
+        source: ImageError,
+    },
     /// A mesh.
-    #[error(transparent)]
-    Mesh(#[from] MeshError),
+    #[error("`surface.mesh.file`")]
+    Mesh {
+        /// The number of the surface in the file, from 0.
+        surface: usize,
+        /// What is wrong with it.
+        source: MeshError,
+    },
+}
+
+impl AssetError {
+    /// Returns the path of the key that names it, for [`error_at`](super::file::error_at).
+    #[must_use]
+    pub fn key(&self) -> String {
+        match self {
+            Self::Image { texture, .. } => format!("texture.{texture}.image.file"),
+            Self::Mesh { surface, .. } => format!("surface.{surface}.mesh.file"),
+        }
+    }
 }
 
 /// Draws the built-in textures, reads those of files, and turns surfaces into triangles; paths are relative to `folder`.
@@ -50,8 +71,9 @@ pub enum AssetError {
 /// [`AssetError`] for an image or a mesh that cannot be used; it names the file.
 pub fn prepare(file: SceneFile, folder: &Path) -> Result<Scene, AssetError> {
     let mut covers = Vec::new();
-    for table in &file.texture {
-        let finest = draw(table, file.seed, folder)?;
+    for (texture, table) in file.texture.iter().enumerate() {
+        let finest =
+            draw(table, file.seed, folder).map_err(|source| AssetError::Image { texture, source })?;
         covers.push(Cover { finest, wrap: table.wrap, filter: table.filter });
     }
     let mut mesh = Mesh::default();
@@ -59,7 +81,7 @@ pub fn prepare(file: SceneFile, folder: &Path) -> Result<Scene, AssetError> {
         let named = surface
             .texture
             .as_ref()
-            .and_then(|name| file.texture.iter().position(|texture| texture.name.as_ref() == name.as_ref()));
+            .and_then(|name| file.texture.iter().position(|texture| texture.name == *name));
         let named = named.or_else(|| {
             surface.checkerboard.as_ref().map(|_| {
                 covers.push(Board::cover());
@@ -68,7 +90,8 @@ pub fn prepare(file: SceneFile, folder: &Path) -> Result<Scene, AssetError> {
         });
         mesh.objects.push(surface.object());
         if let Some(from) = &surface.mesh {
-            let found = gltf_file::read(&folder.join(&from.file), from.scale, named.is_none())?;
+            let found = gltf_file::read(&folder.join(&from.file), from.scale, named.is_none())
+                .map_err(|source| AssetError::Mesh { surface: index, source })?;
             gltf_file::append(found, index as u32, named, &mut mesh, &mut covers);
         }
         surface.build(&mut mesh, index as u32, named.unwrap_or(0) as u32, file.seed);

@@ -379,11 +379,11 @@ impl Draw<'_> {
         [left + pixel % TILE, top + pixel / TILE]
     }
 
-    /// Four words that belong to one fragment, and to its frame if thresholds do: the twin of the shader's
-    /// `fragment_words`.
+    /// Four words that belong to one fragment, and to its frame among those that thresholds repeat after: the twin of the
+    /// shader's `fragment_words`.
     fn words(&self, fragments: &Fragments, tile: usize, at: usize) -> [u32; 4] {
         let [x, y] = self.place(fragments, tile, at);
-        let frame = if self.plan.changes() { self.frame } else { 0 };
+        let frame = self.plan.cycle().map_or(self.frame, |frames| (u64::from(self.frame) % frames) as u32);
         pcg4d([x, y, frame, u32::from(fragments.layer[at])])
     }
 

@@ -15,7 +15,7 @@ use std::path::PathBuf;
 #[serde(deny_unknown_fields)]
 pub struct Surface {
     /// Name of the texture that covers it; a mesh may bring its own, a checkerboard does.
-    pub texture: Option<toml::Spanned<String>>,
+    pub texture: Option<String>,
     /// Its place in the world, in object units.
     #[serde(default)]
     pub position: [f64; 3],
@@ -183,6 +183,20 @@ impl Surface {
             ("mesh", self.mesh.is_some()),
         ];
         all.into_iter().filter(|&(_, present)| present).map(|(name, _)| name).collect()
+    }
+
+    /// Returns the number of triangles that it becomes, but for those that come from a file.
+    #[must_use]
+    pub fn triangles(&self) -> u64 {
+        let one = u32::from(self.card.is_some() || self.plane.is_some() || self.checkerboard.is_some());
+        let parts = [
+            self.fence.as_ref().map(|fence| fence.panels),
+            self.foliage.as_ref().map(|foliage| foliage.cards),
+            self.instances.as_ref().map(|instances| instances.count),
+            self.hair.as_ref().map(|hair| hair.strips),
+            self.stack.as_ref().map(|stack| stack.cards),
+        ];
+        2 * parts.into_iter().flatten().chain([one]).map(u64::from).sum::<u64>()
     }
 
     /// Returns how it stands in the world and moves.

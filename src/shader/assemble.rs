@@ -271,8 +271,14 @@ impl Text {
         }
         if let Some(Coverage { samples, strata }) = options.coverage {
             self.stable_or_literal(literal, JITTERED);
-            // Hashed thresholds stay from frame to frame, and so must the strata of their samples.
-            let frame = if options.parameters().contains(&FRAME) { "frame" } else { "0u" };
+            // Hashed thresholds stay from frame to frame, or repeat after some, and so must the strata of their samples.
+            let frame = match options.stratify {
+                Some(Stratify { frames, .. }) if options.source != Source::Stochastic => {
+                    format!("frame % {frames}u")
+                }
+                _ if options.parameters().contains(&FRAME) => "frame".to_owned(),
+                _ => "0u".to_owned(),
+            };
             if strata != Strata::InOrder {
                 add!(self, "integral_word", "pcg_4d", "fragment_words");
             }

@@ -58,8 +58,7 @@ fn panel(area: &Canvas<'_>, title: &str, lines: &[&[Point]], truth: &[Point]) ->
     let range = if near <= far { near - 0.25..far + 0.25 } else { 0.0..1.0 };
     let (_, most) = ends(1, |share| share);
     let y = Axis::new(title, if most > 1.0 { 0.0..1.08 * most } else { share_range(most) }, 5);
-    let mut chart =
-        chart(area, "", &Axis::new("distance, as a multiple of the scene's [log2]", range, 4), &y)?;
+    let mut chart = chart(area, "", &Axis::new("distance, times the scene's (log2)", range, 4), &y)?;
     let points =
         |line: &[Point]| -> Vec<(f64, f64)> { line.iter().map(|&[x, y]| (libm::log2(x), y)).collect() };
     curve(&mut chart, points(truth), FRAME, CURVE)?;

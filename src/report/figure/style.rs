@@ -324,15 +324,16 @@ pub(super) fn whisker(chart: &mut Chart<'_>, x: f64, from: f64, to: f64, colour:
     curve(chart, [(x, within(from)), (x, within(to))], colour, 3)
 }
 
-/// Shapes by which series are told apart besides their colour.
+/// Shapes by which series are told apart besides their colour: five, so that no shape comes twice in colours that are alike.
 pub(super) fn marker(chart: &mut Chart<'_>, at: (f64, f64), series: usize) -> Drawn {
     let (area, colour) = (chart.plotting_area(), colour(series));
     let square = |half: i32| Rectangle::new([(-half, -half), (half, half)], colour.filled());
-    match series % 4 {
+    match series % 5 {
         0 => area.draw(&Circle::new(at, 9, colour.filled())),
         1 => area.draw(&(EmptyElement::at(at) + square(8))),
         2 => area.draw(&TriangleMarker::new(at, 12, colour.filled())),
-        _ => area.draw(&Cross::new(at, 8, colour.stroke_width(5))),
+        3 => area.draw(&Cross::new(at, 8, colour.stroke_width(5))),
+        _ => area.draw(&Circle::new(at, 9, colour.stroke_width(4))),
     }
 }
 
@@ -406,13 +407,14 @@ fn draw_key(area: &Canvas<'_>, key: Key, (x, middle): (i32, i32)) -> Drawn {
         Key::Series(series) => {
             area.draw(&line(colour(series)))?;
             let (at, colour) = ((x + 30, middle), colour(series));
-            match series % 4 {
+            match series % 5 {
                 0 => area.draw(&Circle::new(at, 9, colour.filled())),
                 1 => {
                     area.draw(&Rectangle::new([(at.0 - 8, at.1 - 8), (at.0 + 8, at.1 + 8)], colour.filled()))
                 }
                 2 => area.draw(&TriangleMarker::new(at, 12, colour.filled())),
-                _ => area.draw(&Cross::new(at, 8, colour.stroke_width(5))),
+                3 => area.draw(&Cross::new(at, 8, colour.stroke_width(5))),
+                _ => area.draw(&Circle::new(at, 9, colour.stroke_width(4))),
             }
         }
     }
