@@ -67,27 +67,34 @@ fn kept_at(lod: f64) -> f64 {
 }
 
 fn grazing() -> Measured {
-    let levels: Vec<f64> = (0..=10).map(|half| 0.5 * f64::from(half)).collect();
+    let levels: Vec<f64> = (1..=10).map(|half| 0.5 * f64::from(half)).collect();
     let ratios = [2.0, 4.0, 8.0, 16.0_f64];
-    let pairs: Vec<(f64, f64)> = ratios.iter().flat_map(|&r| levels.iter().map(move |&lod| (r, lod))).collect();
-    // Read isotropically, a footprint of that length has a level coarser by the logarithm: what Eq. 5 was made for.
-    let due: Vec<bool> = pairs.iter().map(|(r, lod)| kept_at(lod + libm::log2(*r)) > 0.27).collect();
-    let kept = |level: &dyn Fn(f64, f64) -> f64, due_ones: bool| {
-        let of = pairs.iter().zip(&due).filter(|(_, due)| **due == due_ones);
-        share(of.map(|(&(r, lod), _)| kept_at(level(r, lod)) > 0.27))
-    };
-    let (without, with) = (kept(&|_, lod| lod, true), kept(&|r, lod| anisotropy([r, 1.0]) * lod, true));
-    let early = kept(&|r, lod| anisotropy([r, 1.0]) * lod, false);
-    let nothing = kept_at(anisotropy([16.0, 1.0]) * 0.0);
+    let pairs: Vec<(f64, f64)> =
+        ratios.iter().flat_map(|&r| levels.iter().map(move |&lod| (r, lod))).collect();
+    // What a fragment of this alpha keeps where all is noise, but for a tenth.
+    let is_kept = |lod: f64| kept_at(lod) > 0.27;
+    let scaled = |&(r, lod): &(f64, f64)| anisotropy([r, 1.0]) * lod;
+    let (without, with) = (
+        share(pairs.iter().map(|(_, lod)| is_kept(*lod))),
+        share(pairs.iter().map(|pair| is_kept(scaled(pair)))),
+    );
+    let far = share(pairs.iter().filter(|pair| scaled(pair) >= 6.0).map(|pair| is_kept(scaled(pair))));
+    let [half, one] = [0.5, 1.0].map(|lod| ratios.map(|r| kept_at(r * lod)));
     let seen = format!(
-        "alpha 0.3, n = 6, anisotropy 2 to 16, levels 0 to 5: where an isotropic footprint of the same length keeps it, Eq. 5 \
-         does in {}, with the factor in {}; elsewhere with the factor in {}; at level 0 the factor has nothing to scale, anisotropy \
-         16 keeps {nothing:.3}",
+        "alpha 0.3, n = 6, anisotropy 2, 4, 8, 16 at levels 0.5 to 5: kept in {} of the pairs by Eq. 5, in {} with the factor, \
+         in {} where anisotropy times level reaches n; below it goes on vanishing: kept {} at level 0.5, {} at level 1",
         percent(without),
         percent(with),
-        percent(early)
+        percent(far),
+        list(half),
+        list(one)
     );
-    judge(pairs.len() as u64 * u64::from(CHIS), without < 0.5 && with == 1.0, without < with && with > 0.9, seen)
+    judge(
+        2 * pairs.len() as u64 * u64::from(CHIS),
+        without == 0.0 && with == 1.0,
+        without < with && far == 1.0,
+        seen,
+    )
 }
 
 /// How long a footprint is over how wide, by the singular values of its two derivatives.
@@ -123,10 +130,5 @@ fn anisotropy_of_all() -> Measured {
         without_length[1]
     );
     let is_right = |ratios: [f64; 4]| ratios.iter().all(|ratio| (ratio - 1.0).abs() < 0.05);
-    judge(
-        14_u64,
-        is_right(straight) && is_right(slanted) && is_right(diagonal),
-        is_right(straight),
-        seen,
-    )
+    judge(14_u64, is_right(straight) && is_right(slanted) && is_right(diagonal), is_right(straight), seen)
 }
