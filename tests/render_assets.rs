@@ -219,7 +219,7 @@ fn meshes_that_cannot_be_drawn_are_refused_with_the_reason() {
         ("corners.gltf", r#""count":3,"type":"VEC3""#, r#""count":4000,"type":"VEC3""#),
         ("view.gltf", r#""byteOffset":60"#, r#""byteOffset":66"#),
         ("endless.gltf", r#""count":3,"type":"VEC2""#, r#""count":4294967295,"type":"VEC2""#),
-        ("kind.gltf", r#""POSITION":0"#, r#""POSITION":2"#),
+        ("kind.gltf", r#""TEXCOORD_0":1"#, r#""TEXCOORD_0":2"#),
     ] {
         assert!(sound.contains(from), "{name}");
         fs::write(place(name), sound.replace(from, to)).expect("written");
@@ -233,7 +233,7 @@ fn meshes_that_cannot_be_drawn_are_refused_with_the_reason() {
         ("corners.gltf", "accessor 0 has 4000 elements, more than its buffer view holds"),
         ("view.gltf", "buffer view 2 ends beyond its buffer"),
         ("endless.gltf", "accessor 1 has 4294967295 elements, too many"),
-        ("kind.gltf", "accessor 2 is of the wrong type for positions"),
+        ("kind.gltf", "accessor 2 is of the wrong type for texture coordinates"),
         ("wild.gltf", "names a vertex that is not there"),
         ("broken.gltf", "cannot read"),
         ("nothing.gltf", "no scene"),

@@ -542,7 +542,7 @@ variant = \"anisotropic\"
             (
                 "texture = \"leaf\"\ncard = { size = [1.0, 1.0] }",
                 "checkerboard = { size = [1.0, 1.0], square = 0.0 }",
-                "s.toml:9:39: `surface.checkerboard.square` is 0.0; it must be from 1e-15 to 1e15",
+                "s.toml:9:37: `surface.checkerboard.square` is 0.0; it must be from 1e-15 to 1e15",
             ),
         ] {
             let message = wrong(from, to);
@@ -553,6 +553,7 @@ variant = \"anisotropic\"
     /// Whatever a number may not be, whichever key has it.
     #[test]
     fn numbers_are_finite_and_bounded_and_told_at_their_key() {
+        let mut otherwise = Vec::new();
         let card = "texture = \"leaf\"\ncard = { size = [1.0, 1.0] }";
         let effect = "[effects.hashed]\nvariant = \"anisotropic\"";
         for (from, to, expected) in [
@@ -577,7 +578,7 @@ variant = \"anisotropic\"
             (
                 "eye = [0.0",
                 "half_height = 0\neye = [0.0",
-                "`camera.half_height` is 0; it must be from 0.000001 to 1000000",
+                "`camera.half_height` is 0; it must be from 1e-6 to 1e6",
             ),
             ("[camera]", "frames = 0\n[camera]", "s.toml:2:1: `frames` is 0; it must be from 1 to 100000"),
             ("[camera]", "frames = 99999999999999999999999\n[camera]", "`frames` is 99999999999999999999999"),
@@ -652,11 +653,7 @@ variant = \"anisotropic\"
             (effect, "[effects.fixed]\nthreshold = 0", "`effects.fixed.threshold` is 0; it must be above 0"),
             (effect, "[effects.fixed]\nthreshold = \"a\"", "invalid type: string \"a\", expected a number"),
             (effect, "[effects.hashed]\n[effects.average]\nframes = 0", "`effects.average.frames` is 0"),
-            (
-                effect,
-                "[effects.robust]\nvariant = \"iso\"",
-                "variant `iso`. Did you mean `isotropic`? Known here: isotropic, ani",
-            ),
+            (effect, "[effects.robust]\nvariant = \"iso\"", "variant `iso`. Known here: isotropic, ani"),
             (effect, "[effects.robust]\nhash = \"foo\"", "unknown hash `foo`. Known here: sine"),
             (effect, "[effects.robust]\njoin = \"x\"", "unknown join `x`. Known here: interpolate"),
             (effect, "[[effects]]\n[[effects]]\n", "two takes are called `alpha test`"),
@@ -664,8 +661,11 @@ variant = \"anisotropic\"
             ("[camera]", "camera = 1\n[other]", "`camera`: invalid type: number `1`, expected a table"),
         ] {
             let message = wrong(from, to);
-            assert!(message.contains(expected), "{to}: {message}");
+            if !message.contains(expected) {
+                otherwise.push((expected, message));
+            }
         }
+        assert!(otherwise.is_empty(), "{otherwise:#?}");
         let zoom = "frames = 5000\nresolution = [64, 48]\n[camera]\nmotion = { zoom = 1.01 }";
         assert!(
             wrong("[camera]", zoom)

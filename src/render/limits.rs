@@ -142,8 +142,8 @@ pub(super) fn numbers(places: &Places<'_>) -> Result<(), (Option<Span>, String)>
 
 /// A bound as a person would write it.
 fn short(number: f64) -> String {
-    let large = number.abs() >= 1.0e7 || (number != 0.0 && number.abs() < 1.0e-3);
-    if large { format!("{number:e}") } else { format!("{number}") }
+    let [plain, power] = [format!("{number}"), format!("{number:e}")];
+    if power.len() < plain.len() && power.len() < 6 && plain.len() > 6 { power } else { plain }
 }
 
 /// Finds what comes to too much together: the path of a key, and what is wrong.

@@ -180,6 +180,7 @@ mod tests {
         layer: true,
         lod: true,
         frame: true,
+        pixel: true,
         coverage: false,
         depth: false,
         samples: None,
