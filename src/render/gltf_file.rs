@@ -202,9 +202,9 @@ fn lengths(document: &gltf::Document, buffers: &[buffer::Data]) -> Result<(), St
                 sparse::IndexType::U16 => 2,
                 sparse::IndexType::U32 => 4,
             };
-            let count = sparse.count() as usize;
-            fits(count, indices.offset() as usize, width, &indices.view())
-                && fits(count, values.offset() as usize, size, &values.view())
+            let count = sparse.count();
+            fits(count, indices.offset(), width, &indices.view())
+                && fits(count, values.offset(), size, &values.view())
         });
         if !(own && sparse) {
             return Err(format!("accessor {index} has {count} elements, more than its buffer view holds"));
