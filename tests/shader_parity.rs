@@ -234,7 +234,7 @@ fn effects_twin(
     if let Some(Coverage { samples, strata }) = options.coverage {
         let n = NonZeroU32::from(samples);
         let [x, y] = fragment.pixel.to_array().map(|c| c as u32);
-        let frame = if options.stratify.is_some() { fragment.frame } else { 0 };
+        let frame = options.stratify.map_or(0, |stratify| fragment.frame % NonZeroU32::from(stratify.frames));
         let words = pcg4d([x, y, frame, fragment.layer]);
         let xi = [open_lattice::<f32>(words[1]), open_lattice(words[2])];
         let stratum = match (strata, literal) {

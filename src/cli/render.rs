@@ -11,7 +11,7 @@ use hashed_alpha::report::study::{distances, json, write_csv, write_table};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::fmt::Display;
 use std::fs;
-use std::io::{self, Write};
+use std::io::Write;
 use std::path::Path;
 
 /// Draws every scene. What is finished is written before the next one begins.
@@ -30,9 +30,10 @@ pub fn run(args: &RenderArgs) -> Result<Ending, Failure> {
         bar.finish_and_clear();
         for take in study.takes.iter().filter(|take| take.cost.fragments == 0) {
             let (scene, take) = (&scene.file.name, &take.plan.name);
-            let what = "no surface is seen; is the camera at the right place?";
-            // Whoever has closed stderr wants no notes.
-            let _ = writeln!(io::stderr(), "note: {scene}: {take}: {what}");
+            output::remark(
+                "note",
+                format_args!("{scene}: {take}: no surface is seen; is the camera at the right place?"),
+            );
         }
         let text = json(&scene, &study).map_err(|error| making("numbers", error))?;
         write(&args.out, &scene, &study, &text, args.sequence)?;
