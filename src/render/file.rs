@@ -617,9 +617,14 @@ variant = \"anisotropic\"
                 "`surface.fence.panels` is 0",
             ),
             (
+                "card = { size = [1.0, 1.0] }",
+                "stack = { cards = 4097, size = [1, 1], distance = 1 }",
+                "it must be from 1 to 4096",
+            ),
+            (
                 card,
-                "texture = \"leaf\"\nstack = { cards = 2000000, size = [1, 1], distance = 1 }\n[[surface]]\n\
-                 texture = \"leaf\"\nstack = { cards = 2000000, size = [1, 1], distance = 1 }",
+                "texture = \"leaf\"\nfence = { panels = 2000000, size = [1, 1] }\n[[surface]]\n\
+                 texture = \"leaf\"\nfence = { panels = 2000000, size = [1, 1] }",
                 "s.toml:11:1: up to surface 2 there are 8000000 triangles; at most 4194304",
             ),
             (effect, "[truth]\nsamples = 65", "s.toml:12:1: `truth.samples` is 65; it must be from 1 to 64"),

@@ -30,6 +30,8 @@ const CYCLE: Bound = From(1.0, 1024.0);
 /// Parts of a surface, and of a texture, which reads all of them for each texel.
 const PARTS: Bound = From(1.0, (1 << 21) as f64);
 const STROKES: Bound = From(1.0, 4096.0);
+/// Surfaces one behind the other: every pixel keeps a fragment of each.
+const LAYERS: Bound = From(1.0, 4096.0);
 const SIDE: Bound = From(1.0, LARGEST_SIDE as f64);
 const CORNER: Bound = From(0.0, LARGEST_SIDE as f64);
 
@@ -68,7 +70,7 @@ const BOUNDS: &[(&str, Bound)] = &[
     ("surface.hair.strips", PARTS),
     ("surface.hair.size", LENGTH),
     ("surface.hair.radius", From(0.0, LARGEST)),
-    ("surface.stack.cards", PARTS),
+    ("surface.stack.cards", LAYERS),
     ("surface.stack.size", LENGTH),
     ("surface.checkerboard.size", LENGTH),
     ("surface.checkerboard.square", LENGTH),
