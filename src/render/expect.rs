@@ -1,6 +1,6 @@
 //! What a scene must show, in a form that a machine checks.
 
-use super::mistake::nearest;
+use super::mistake::likely;
 use super::study::Take;
 use serde::Deserialize;
 
@@ -40,8 +40,7 @@ pub(super) fn check_words(
     for (key, name) in named.into_iter().filter_map(|(key, name)| Some((key, name?))) {
         if let Some(takes) = takes.filter(|takes| !takes.contains(name)) {
             let known: Vec<&str> = takes.iter().map(String::as_str).collect();
-            let likely =
-                nearest(name, &known).map_or_else(String::new, |near| format!(" Did you mean `{near}`?"));
+            let likely = likely(name, &known);
             return Err((key, format!("no take is called `{name}`.{likely} Takes are {}", known.join(", "))));
         }
     }

@@ -3,7 +3,7 @@
 use super::effects::{self, Effects};
 use super::expect::{self, Expectation};
 use super::limits;
-use super::mistake::{nearest, place, plain, suggest};
+use super::mistake::{likely, place, plain, suggest};
 use super::places::{Places, Span};
 use super::plan::plan;
 use super::procedural::{Checkerboard, Constant, Hair, Leaves, Ramp, Wire};
@@ -339,8 +339,7 @@ fn check(scene: &SceneFile) -> Result<(), Wrong> {
         }
         match &surface.texture {
             Some(name) if !names.contains(&name.as_str()) => {
-                let likely =
-                    nearest(name, &names).map_or_else(String::new, |near| format!(" Did you mean `{near}`?"));
+                let likely = likely(name, &names);
                 return Err((key("texture"), format!("no texture is called `{name}`.{likely}")));
             }
             Some(_) if surface.checkerboard.is_some() => {

@@ -21,7 +21,7 @@ pub(super) fn suggest(message: &str) -> Option<String> {
         return None;
     }
     let what = if what.ends_with("field") { "unknown key" } else { what };
-    let likely = nearest(wrong, &known).map_or_else(String::new, |near| format!(" Did you mean `{near}`?"));
+    let likely = likely(wrong, &known);
     let known = if known.is_empty() { "none".to_owned() } else { known.join(", ") };
     Some(format!("{what} `{wrong}`.{likely} Known here: {known}"))
 }
@@ -57,8 +57,13 @@ pub(super) fn plain(key: &str, message: &str) -> String {
     if key.is_empty() { text } else { format!("`{key}`: {text}") }
 }
 
+/// Asks for the word that was likely meant; nothing where none is near.
+pub(super) fn likely(wrong: &str, known: &[&str]) -> String {
+    nearest(wrong, known).map_or_else(String::new, |near| format!(" Did you mean `{near}`?"))
+}
+
 /// The known word with the fewest edits, if they are fewer than half of its letters.
-pub(super) fn nearest<'a>(wrong: &str, known: &[&'a str]) -> Option<&'a str> {
+fn nearest<'a>(wrong: &str, known: &[&'a str]) -> Option<&'a str> {
     let (edits, near) = known.iter().map(|near| (edits(wrong, near), *near)).min()?;
     (2 * edits <= near.chars().count().max(2)).then_some(near)
 }
