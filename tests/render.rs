@@ -1,7 +1,5 @@
 //! Scenes: the gallery shows what it must, plans cost what they predict, and an absent table leaves no trace.
 
-#![cfg(feature = "render")]
-
 use hashed_alpha::render::adjust::textures;
 use hashed_alpha::render::effects::{self, ALL, Effects};
 use hashed_alpha::render::file::{self, SceneFile, Takes};

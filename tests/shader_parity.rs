@@ -1,6 +1,5 @@
 //! The assembled WGSL against its Rust twins, on the interpreter: which are the same bits, and how far the others are
 //! apart.
-#![cfg(feature = "shader")]
 
 use core::num::{NonZeroU16, NonZeroU32};
 use hashed_alpha::scene::fragment::Fragment;

@@ -1,6 +1,5 @@
 //! The assembled WGSL: every combination is a sound module, holds nothing that was not asked for, and keeps its names
 //! in every language.
-#![cfg(feature = "shader")]
 
 use core::num::NonZeroU16;
 use hashed_alpha::shader::assemble::{
