@@ -151,6 +151,11 @@ struct Crate {
     modules: BTreeMap<Path, String>,
 }
 
+/// Whether a path is that of a module or leads to one.
+fn leads_to_module(modules: &BTreeMap<Path, String>, path: &Path) -> bool {
+    modules.range(path.clone()..).next().is_some_and(|(module, _)| module.starts_with(path))
+}
+
 impl Crate {
     fn new(sources: &Sources) -> Self {
         let mut files = BTreeMap::new();
@@ -184,7 +189,7 @@ impl Crate {
             name => {
                 let child = [module.as_slice(), &[name.to_owned()]].concat();
                 match self.binding(module, name) {
-                    _ if self.modules.contains_key(&child) => child,
+                    _ if leads_to_module(&self.modules, &child) => child,
                     // An import of a name from a crate of the same name.
                     Some(binding) if depth < 8 && binding.path[0] != *name => {
                         let path = [binding.path.as_slice(), rest].concat();
@@ -198,7 +203,7 @@ impl Crate {
             let child = [current.as_slice(), std::slice::from_ref(next)].concat();
             if next == "super" {
                 current.pop();
-            } else if self.modules.contains_key(&child) {
+            } else if leads_to_module(&self.modules, &child) {
                 current = child;
             } else if let (Some(binding), true) = (self.binding(&current, next), depth < 8) {
                 return self.definition(&current, &[binding.path.as_slice(), after].concat(), depth + 1);
