@@ -4,10 +4,10 @@ use super::tables::{Apart, Chi, Door, FadeIn, History, Occlusion, Pattern};
 use crate::render::draw::fragments::Space;
 use crate::render::draw::texture::Scaling;
 use crate::technique::foveated::Gaze;
-use crate::technique::order::Order;
-use crate::technique::stipple::Density;
 use crate::threshold::batch::Model;
 use crate::threshold::robust::Join;
+use crate::threshold::stage::order::Order;
+use crate::threshold::stage::stipple::Density;
 use crate::threshold::two_scale::Variant;
 use core::num::NonZeroU32;
 

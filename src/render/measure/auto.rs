@@ -7,8 +7,8 @@ use crate::render::effect::tables::{
     AlphaToCoverage, Average, FadeIn, Fixed, Pattern, Premultiplied, RobustHash, Temporal,
 };
 use crate::render::scene_file::load::Scene;
-use crate::technique::order::Order;
 use crate::threshold::hash::HashKind;
+use crate::threshold::stage::order::Order;
 use crate::threshold::two_scale::Variant;
 
 /// What was chosen.

@@ -6,8 +6,8 @@ use crate::render::draw::shot::Shot;
 use crate::render::draw::texture::Texture;
 use crate::render::draw::view::Cause;
 use crate::render::scene_file::load::Scene;
-use crate::threshold::fade_in::anisotropy;
 use crate::threshold::fixed::{FIXED_THRESHOLD, passes};
+use crate::threshold::stage::fade_in::anisotropy;
 use glam::{DVec2, vec2};
 
 /// Levels of detail that are told apart: 0 for magnified fragments, then one a level.
