@@ -1,0 +1,45 @@
+//! One threshold for all: [`fixed`](crate::threshold::fixed).
+
+use super::kind::{About, Effect, Role, Rules, Technique};
+use crate::render::draw::plan::{Plan, Text, tell};
+use crate::render::scene_file::bound::Bound;
+use crate::threshold::pipeline::Source;
+use serde::Deserialize;
+
+/// One threshold for all.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Fixed {
+    /// That threshold, in (0, 1].
+    #[serde(default = "half")]
+    pub threshold: f32,
+}
+
+fn half() -> f32 {
+    0.5
+}
+
+impl Effect for Fixed {
+    const ABOUT: About = About {
+        citation: "§1",
+        does: "Compares alpha with one threshold",
+        costs: "nothing but the test",
+        bounds: &[("threshold", Bound::THRESHOLD)],
+        techniques: &[Technique {
+            name: "fixed",
+            source: "§1",
+            claim: "Geometry vanishes with distance where the mean alpha is below the threshold.",
+            shown: ["vanishing-foliage", "alpha test"],
+        }],
+    };
+
+    fn rules(&self) -> Rules {
+        Rules::of(&[Role::Threshold])
+    }
+
+    fn plan(&self, plan: &mut Plan) {
+        plan.before(tell("fixed: no noise", &[], Text::None), |setup| {
+            setup.source(Source::Fixed(self.threshold))
+        });
+    }
+}

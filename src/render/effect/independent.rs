@@ -1,0 +1,83 @@
+//! Frames with hashes of their own (§7.2.2): [`independent`](crate::threshold::stage::independent).
+
+use super::kind::{About, Effect, Role, Rules, Technique, one_of};
+use crate::render::draw::plan::{Plan, Text, tell};
+use crate::render::scene_file::bound::Bound;
+use crate::render::scene_file::diagnostic::Diagnostic;
+use crate::threshold::hash::HashKind;
+use crate::threshold::pipeline::Source;
+use crate::threshold::stage::independent::{Independence, IndependentBy};
+use core::num::NonZeroU32;
+use serde::{Deserialize, Deserializer};
+
+/// A hash of its own for each frame.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Independent {
+    /// Number of frames that belong together.
+    pub frames: NonZeroU32,
+    /// How their hashes are made independent.
+    #[serde(default, deserialize_with = "by")]
+    pub by: IndependentBy,
+}
+
+fn by<'de, D: Deserializer<'de>>(deserializer: D) -> Result<IndependentBy, D::Error> {
+    one_of(deserializer, "way to be independent", IndependentBy::ALL, IndependentBy::name)
+}
+
+impl Effect for Independent {
+    const ABOUT: About = About {
+        citation: "§7.2.2",
+        does: "Hashes at another place in every frame",
+        costs: "nothing but an addition a hash",
+        bounds: &[("frames", Bound::CYCLE)],
+        techniques: &[
+            Technique {
+                name: "independent-hashes",
+                source: "§7.2.2",
+                claim: "Offsets in hash space give independent thresholds for each frame; the average flickers.",
+                shown: ["temporal-orders", "independent, 8"],
+            },
+            Technique {
+                name: "frame-word",
+                source: "not in the paper",
+                claim: "The same by a word that the hash reads.",
+                shown: ["temporal-orders", "word, 8"],
+            },
+        ],
+    };
+
+    fn rules(&self) -> Rules {
+        Rules::default().needs(Role::Hash)
+    }
+
+    fn check(&self, plan: &Plan) -> Result<(), Diagnostic> {
+        let Some(Source::Hash(model)) = plan.setup.pipeline.map(|pipeline| pipeline.source) else {
+            return Ok(());
+        };
+        match (self.by, model.hash()) {
+            (IndependentBy::Word, HashKind::Sine | HashKind::SineChi2 | HashKind::Pcg3d) => {
+                Err(Diagnostic::new(
+                    "by",
+                    "`independent.by` = \"word\" needs a hash that reads the word: mm4, xxhash32, pcg4d or pcg-nested",
+                ))
+            }
+            (IndependentBy::Word | IndependentBy::Offset, _) => Ok(()),
+        }
+    }
+
+    fn plan(&self, plan: &mut Plan) {
+        let Self { frames, by } = *self;
+        let how = match by {
+            IndependentBy::Offset => "at another place",
+            IndependentBy::Word => "with another word",
+        };
+        let reason = "shaders have one hash for all frames";
+        let told = tell(format!("hash: {how} in each of {frames} frames"), &[], Text::Impossible(reason));
+        plan.before(told, |setup| {
+            setup.thresholds(|pipeline| {
+                pipeline.independence = Some(Independence { frames, by });
+            })
+        });
+    }
+}

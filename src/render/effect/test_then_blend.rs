@@ -1,0 +1,53 @@
+//! The alpha test, and then what it left out, blended (§3, Moore & Jefferies 2009):
+//! [`test_then_blend`](crate::technique::prior_work::test_then_blend).
+
+use super::kind::{About, Effect, Role, Rules, Technique};
+use crate::render::draw::cost::{Cost, Per};
+use crate::render::draw::plan::{Phase, Plan, Text, tell};
+use crate::technique::prior_work::test_then_blend::test_then_blend;
+use crate::threshold::fixed::FIXED_THRESHOLD;
+use crate::threshold::pipeline::Source;
+use serde::Deserialize;
+
+/// The alpha test, and then what it left out, blended.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TestThenBlend {}
+
+impl Effect for TestThenBlend {
+    const ABOUT: About = About {
+        citation: "§3 (Moore & Jefferies 2009)",
+        does: "Draws what fails the test once more, blended",
+        costs: "passes, fragments, texels: twice; blends: 1 a fragment",
+        bounds: &[],
+        techniques: &[Technique {
+            name: "test-then-blend",
+            source: "§3 (Moore & Jefferies 2009)",
+            claim: "Transparent fragments never hide opaque ones; everything is drawn twice.",
+            shown: ["blending", "test, then blend"],
+        }],
+    };
+
+    fn rules(&self) -> Rules {
+        Rules::of(&[Role::Test, Role::Pixels, Role::SecondPass])
+            .never(Role::Varied, "the first works with one threshold for all")
+    }
+
+    fn plan(&self, plan: &mut Plan) {
+        let threshold = match plan.setup.pipeline.map(|pipeline| pipeline.source) {
+            Some(Source::Fixed(threshold)) => f64::from(threshold),
+            // No other source goes with it.
+            None | Some(_) => FIXED_THRESHOLD,
+        };
+        let price = [
+            (Per::Frame, Cost::passes(1)),
+            (Per::Fragment, Cost::fragments(1) + Cost::blends(1)),
+            (Per::Texel, Cost::texels(1)),
+        ];
+        let says = format!("blend: all is drawn once more, what failed at {threshold} over what passed");
+        plan.shade(Phase::Blend, tell(says, &price, Text::None), move |shading, work, result| {
+            shading.sample(work);
+            shading.blend(work, |layers, behind| test_then_blend(layers, behind, threshold), result);
+        });
+    }
+}
