@@ -23,7 +23,7 @@ pub enum Failure {
         /// What the system says.
         source: io::Error,
     },
-    /// A row of the input is not a footprint.
+    /// The rows of the input cannot be read.
     #[error(transparent)]
     Row(#[from] RowError),
     /// The report cannot be written.
