@@ -7,9 +7,9 @@ use super::shader_files::ShaderFile;
 use hashed_alpha::check::shaders;
 use hashed_alpha::check::{Subject, subject::Precision};
 use hashed_alpha::scene::{Fragment, Scene};
-use hashed_alpha::shader::assemble::ShaderOptions;
 use hashed_alpha::shader::interpreter::DeviceModel;
 use hashed_alpha::shader::own::{self, OwnShader};
+use hashed_alpha::threshold::pipeline::Pipeline;
 use hashed_alpha::threshold::robust::{Join, Robust};
 use hashed_alpha::threshold::two_scale::Variant;
 use std::path::Path;
@@ -63,8 +63,8 @@ fn built_in(word: &str, args: &ShaderArgs) -> Result<Vec<Subject<'static>>, Fail
     let mut found = Vec::new();
     for twin in all {
         let literal = twin.name.starts_with("paper");
-        let options = if literal { ShaderOptions::listing } else { ShaderOptions::robust }(twin.variant);
-        let shader = own::assembled(&twin.name, &options)?;
+        let pipeline = if literal { Pipeline::listing } else { Pipeline::robust }(twin.variant);
+        let shader = own::assembled(&twin.name, pipeline)?;
         let claims = Claimed {
             variant: twin.variant,
             join: twin.join,

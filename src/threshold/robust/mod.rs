@@ -88,7 +88,21 @@ impl Robust {
     }
 }
 
+impl Default for Robust {
+    /// With one scale for all axes.
+    fn default() -> Self {
+        Self::new(Variant::Isotropic)
+    }
+}
+
 impl<H> Robust<H> {
+    /// The same with another hash in place of its own.
+    #[must_use]
+    pub fn with_hash<G>(self, hash: G) -> Robust<G> {
+        let Self { variant, hash: _, hash_scale, join, repairs } = self;
+        Robust { variant, hash, hash_scale, join, repairs }
+    }
+
     /// Returns the threshold of a footprint, in [2^-24, 1] with every repair.
     ///
     /// # Errors
