@@ -58,7 +58,7 @@ pub fn frame(scene: &Scene, textures: &[Texture], plan: &Plan, shot: &Shot, inde
         work.fragments.pixel.iter().for_each(|&pixel| result.touched[usize::from(pixel)] = true);
         plan.shade_tile(&shading, work, &mut result);
         if scene.file.layers.is_some() && !work.kept.is_empty() {
-            result.layers = layer_sums(&work.fragments, &work.alpha, &work.kept, setup.samples);
+            result.layers = layer_sums(&work.fragments, &work.tested, &work.kept, setup.samples);
         }
         result
     };

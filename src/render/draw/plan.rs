@@ -9,7 +9,10 @@ use super::setup::Setup;
 use super::work::{Frame, Shading, TileResult, Work};
 use crate::render::measure::picture::Picture;
 use crate::scene::Camera;
-use crate::shader::assemble::{InvalidOption, assemble};
+use crate::shader::assemble::{AssembleError, assemble};
+use crate::threshold::cdf::CdfForm;
+use crate::threshold::model::Model;
+use crate::threshold::pipeline::Source;
 use glam::DVec2;
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -39,7 +42,7 @@ pub enum Text {
 }
 
 /// Why a plan has no shader text.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum NoShader {
     /// No shader computes what a stage does.
     #[error("{says}: {reason}")]
@@ -51,7 +54,7 @@ pub enum NoShader {
     },
     /// The pipeline of thresholds cannot be written as text.
     #[error(transparent)]
-    Invalid(#[from] InvalidOption),
+    Assemble(#[from] AssembleError),
 }
 
 /// Where a stage of shading stands.
@@ -221,7 +224,7 @@ impl Plan {
     }
 
     /// Returns the threshold of the plan as WGSL, made of the chunks of its stages only, and after it the functions that the
-    /// stages call beside it.
+    /// stages call beside it. After a listing to the letter, and after fresh random numbers, all is to the letter.
     ///
     /// # Errors
     ///
@@ -239,8 +242,14 @@ impl Plan {
             }
         }
         // What blends without a test says above that it has no threshold.
-        let pipeline = self.setup.pipeline.unwrap_or_default();
-        Ok(assemble(&pipeline)? + &beside)
+        let mut pipeline = self.setup.pipeline.unwrap_or_default();
+        match pipeline.source {
+            Source::Hash(Model::Hashed(hashed) | Model::BeforeCdf(hashed)) => pipeline.form = hashed.form,
+            Source::Stochastic => pipeline.form = CdfForm::Literal,
+            Source::Hash(Model::Robust(_)) | Source::Fixed(_) | Source::Given => {}
+            Source::ScreenDoor(_) | Source::Stipple { .. } => {}
+        }
+        Ok(assemble(pipeline)? + &beside)
     }
 }
 

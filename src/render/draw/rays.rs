@@ -83,9 +83,9 @@ impl Occluder {
 mod tests {
     use super::*;
     use crate::render::draw::mesh::{Object, Vertex};
-    use crate::threshold::two_scale::Variant;
     use glam::{DAffine3, DVec2, dvec3};
-    use rand::SeedableRng;
+    use rand::rngs::Xoshiro256PlusPlus;
+    use rand::{RngExt, SeedableRng};
 
     /// A floor at y = 0 and a wall at x = 0 of a height, both long.
     fn corner_of(height: f64) -> Occluders {

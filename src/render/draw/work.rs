@@ -55,7 +55,10 @@ pub(in crate::render) struct Work {
     pub(in crate::render) access: Vec<Access>,
     /// Texels that were read for alpha.
     pub(in crate::render) texels: u64,
+    /// Alphas of the texture.
     pub(in crate::render) alpha: Vec<f32>,
+    /// The alphas that are tested: those of the texture, unless an effect changes them.
+    pub(in crate::render) tested: Vec<f32>,
     /// Thresholds that do not come from the pipeline's own sources; empty unless it asks for them.
     pub(in crate::render) given: Vec<f32>,
     /// One threshold a fragment, or one a sample.
@@ -73,6 +76,7 @@ impl Default for Work {
             access: Vec::new(),
             texels: 0,
             alpha: Vec::new(),
+            tested: Vec::new(),
             given: Vec::new(),
             threshold: Vec::new(),
             kept: Vec::new(),
@@ -124,5 +128,6 @@ impl Shading<'_> {
             work.alpha.push(texture.alpha(&access, &mut work.texels));
             work.access.push(access);
         }
+        work.tested.clone_from(&work.alpha);
     }
 }

@@ -31,8 +31,8 @@ pub struct Hashed {
 impl Default for Hashed {
     /// Listing 1.
     fn default() -> Self {
-        let HashedAlpha { variant, hash, hash_scale, form } = HashedAlpha::listing(Variant::Isotropic);
-        Self { variant, hash, hash_scale, form }
+        let HashedAlpha { variant, hash_scale, form, .. } = HashedAlpha::listing(Variant::Isotropic);
+        Self { variant, hash: HashKind::Sine, hash_scale, form }
     }
 }
 

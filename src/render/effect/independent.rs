@@ -1,6 +1,6 @@
 //! Frames with hashes of their own (§7.2.2): [`independent`](crate::threshold::stage::independent).
 
-use super::kind::{About, Effect, Role, Rules, Technique, one_of};
+use super::kind::{About, Effect, Role, Rules, Technique};
 use crate::render::draw::plan::{Plan, Text, tell};
 use crate::render::scene_file::bound::Bound;
 use crate::render::scene_file::diagnostic::Diagnostic;
@@ -8,7 +8,7 @@ use crate::threshold::hash::HashKind;
 use crate::threshold::pipeline::Source;
 use crate::threshold::stage::independent::{Independence, IndependentBy};
 use core::num::NonZeroU32;
-use serde::{Deserialize, Deserializer};
+use serde::Deserialize;
 
 /// A hash of its own for each frame.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -17,12 +17,16 @@ pub struct Independent {
     /// Number of frames that belong together.
     pub frames: NonZeroU32,
     /// How their hashes are made independent.
-    #[serde(default, deserialize_with = "by")]
+    #[serde(default, with = "ByName")]
     pub by: IndependentBy,
 }
 
-fn by<'de, D: Deserializer<'de>>(deserializer: D) -> Result<IndependentBy, D::Error> {
-    one_of(deserializer, "way to be independent", IndependentBy::ALL, IndependentBy::name)
+/// The names by which a user asks for a way.
+#[derive(Deserialize)]
+#[serde(remote = "IndependentBy", rename_all = "kebab-case")]
+enum ByName {
+    Offset,
+    Word,
 }
 
 impl Effect for Independent {
@@ -72,8 +76,7 @@ impl Effect for Independent {
             IndependentBy::Offset => "at another place",
             IndependentBy::Word => "with another word",
         };
-        let reason = "shaders have one hash for all frames";
-        let told = tell(format!("hash: {how} in each of {frames} frames"), &[], Text::Impossible(reason));
+        let told = tell(format!("hash: {how} in each of {frames} frames"), &[], Text::None);
         plan.before(told, |setup| {
             setup.thresholds(|pipeline| {
                 pipeline.independence = Some(Independence { frames, by });

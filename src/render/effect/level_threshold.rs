@@ -36,8 +36,7 @@ impl Effect for LevelThreshold {
             setup.textures.changes.push(change);
             setup.source(Source::Given);
         });
-        let reason = "shaders have no table of levels";
-        let told = tell("read threshold: mixed between levels as alpha is", &[], Text::Impossible(reason));
+        let told = tell("read threshold: mixed between levels as alpha is", &[], Text::None);
         plan.shade(Phase::Alpha, told, |shading, work, _| {
             let triangles = work.fragments.triangle.iter().zip(&work.access);
             let given =

@@ -27,6 +27,7 @@ pub mod robust;
 pub mod scaled_alpha;
 pub mod scaled_texels;
 pub mod screen_door;
+pub mod sharpened;
 pub mod stipple;
 pub mod stochastic;
 pub mod supersampling;
@@ -114,6 +115,7 @@ effects! {
     jitter: Jitter,
     temporal: Temporal,
     alpha_to_coverage: AlphaToCoverage,
+    sharpened: Sharpened,
     fade_in: FadeIn,
     naive_blend: NaiveBlend,
     test_then_blend: TestThenBlend,
@@ -155,6 +157,7 @@ gallery! {
     "subpixel-motion",
     "checkerboard",
     "multisample",
+    "sharpened-coverage",
     "layers",
     "pixel-masks",
     "screen-door",

@@ -1,6 +1,6 @@
 //! From the effects of a take to the stages that simulate them.
 
-use super::kind::{Role, Rules};
+use super::kind::Rules;
 use super::{ALL, Effects};
 use crate::render::draw::cost::{Cost, Per};
 use crate::render::draw::plan::{Phase, Plan, Text, tell};
@@ -106,14 +106,14 @@ fn thresholds(pipeline: &Pipeline, shading: &Shading<'_>, work: &mut Work) {
     };
     threshold.clear();
     threshold.resize(fragments.len() * pipeline.samples().get() as usize, 0.0);
-    pipeline.thresholds(Tier::Exact, &inputs, &mut || rng.next_u32(), threshold);
+    pipeline.thresholds(Tier::BitExact, &inputs, &mut || rng.next_u32(), threshold);
 }
 
 /// Tests each fragment against its thresholds: one a sample, or one for all of them.
 fn keep(shading: &Shading<'_>, work: &mut Work) {
     let all = u64::MAX >> (u64::BITS - shading.setup.samples.get());
     let each = work.threshold.len() / work.fragments.len();
-    for (at, (&alpha, thresholds)) in work.alpha.iter().zip(work.threshold.chunks_exact(each)).enumerate() {
+    for (at, (&alpha, thresholds)) in work.tested.iter().zip(work.threshold.chunks_exact(each)).enumerate() {
         let kept = if let [one] = thresholds {
             if passes(alpha, *one) { all } else { 0 }
         } else {
