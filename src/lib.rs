@@ -52,6 +52,7 @@
 //!
 //! | word | means |
 //! |---|---|
+//! | pipeline | where a threshold comes from, and what becomes of it: source, strata, fade, clamp |
 //! | footprint | a position on a surface and its two screen derivatives: what a threshold is computed from |
 //! | variant | how scales follow from the derivatives: Listing 1, Listing 2, or an ablation of §5.4 |
 //! | join | how the hashes of two octaves become one value |
@@ -97,6 +98,7 @@ pub use check::{Budget, Subject, Suite};
 pub use glam;
 pub use threshold::footprint::Footprint;
 pub use threshold::hashed::HashedAlpha;
+pub use threshold::pipeline::Pipeline;
 pub use threshold::robust::Robust;
 pub use threshold::two_scale::Variant;
 

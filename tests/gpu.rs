@@ -269,7 +269,7 @@ fn assembled_thresholds_follow(device: &Device) -> Result<(), Failed> {
         })
         .collect();
     let options = Pipeline::robust(Variant::Isotropic);
-    let shader = Evaluator::new(device, &own::assembled("robust", &options)?)?;
+    let shader = Evaluator::new(device, &own::assembled("robust", options)?)?;
     let robust = Robust::new(Variant::Isotropic);
     for (fragment, threshold) in fragments.iter().zip(shader.thresholds(&fragments)?) {
         let expected: f32 = robust.threshold(&fragment.footprint.cast())?;
@@ -366,7 +366,7 @@ fn pictures_have_derivatives(device: &Device) -> Result<(), Failed> {
     /// threshold by 0.003.
     const LARGEST_ERROR: f64 = 0.001;
     let options = Pipeline::robust(Variant::Isotropic);
-    let source = assemble(&options)?;
+    let source = assemble(options)?;
     let robust = Robust::new(Variant::Isotropic);
     let follows = |pixel: &Pixel| {
         robust.threshold(&pixel.footprint).is_ok_and(|threshold| (pixel.threshold - threshold).abs() < 4.1e-6)

@@ -8,6 +8,7 @@ use hashed_alpha::technique::jitter::camera_jitter;
 use hashed_alpha::threshold::stage::fade_in::{blend_literal, fade_in_literal};
 use hashed_alpha::threshold::stochastic::stochastic;
 use hashed_alpha::threshold::two_scale::Variant::Isotropic;
+use rand::Rng;
 
 pub const ROWS: &[Row] = &[
     Row {

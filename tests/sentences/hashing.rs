@@ -18,6 +18,7 @@ use hashed_alpha::threshold::robust::{Join, Robust};
 use hashed_alpha::threshold::stage::stratify::stratified_literal;
 use hashed_alpha::threshold::stochastic::stochastic;
 use hashed_alpha::threshold::two_scale::Variant::{self, Anisotropic, Isotropic};
+use rand::Rng;
 
 pub const ROWS: &[Row] = &[
     Row {
