@@ -62,7 +62,8 @@ fn is_of_effects(path: &str) -> bool {
 
 fn scattered(sources: &Sources) -> Vec<(&'static str, Vec<&str>)> {
     let found = ALL.iter().map(|known| (known.name, files(sources, known.name)));
-    let of_effects = found.map(|(name, files)| (name, files.into_iter().filter(|path| is_of_effects(path)).collect()));
+    let of_effects =
+        found.map(|(name, files)| (name, files.into_iter().filter(|path| is_of_effects(path)).collect()));
     of_effects.filter(|(_, files): &(_, Vec<&str>)| files.len() > MOST).collect()
 }
 

@@ -268,18 +268,6 @@ impl Level {
         let [width, height] = self.size.map(|side| side as usize);
         prior_work::Level { texels: &self.alpha, width, height }
     }
-
-    /// Returns the mean alpha.
-    #[must_use]
-    pub fn mean_alpha(&self) -> f64 {
-        self.alpha.iter().map(|&alpha| f64::from(alpha)).sum::<f64>() / self.alpha.len() as f64
-    }
-
-    /// Returns the share of texels whose alpha is at least `threshold`.
-    #[must_use]
-    pub fn share_at_least(&self, threshold: f32) -> f64 {
-        self.alpha.iter().filter(|&&alpha| alpha >= threshold).count() as f64 / self.alpha.len() as f64
-    }
 }
 
 fn mix(a: [f32; 3], b: [f32; 3], weight: f32) -> [f32; 3] {
@@ -355,8 +343,11 @@ mod tests {
     fn every_level_keeps_the_mean_and_the_last_is_one_texel() {
         for size in [[64, 64], [7, 5], [65_535, 1], [1, 3]] {
             let texture = texture(size, Filter::Trilinear);
-            let mean = texture.levels[0].mean_alpha();
-            assert!(texture.levels.iter().all(|level| (level.mean_alpha() - mean).abs() < 1e-6), "{size:?}");
+            let mean = texture.levels[0].alphas().mean();
+            assert!(
+                texture.levels.iter().all(|level| (level.alphas().mean() - mean).abs() < 1e-6),
+                "{size:?}"
+            );
             assert_eq!(texture.levels.last().map(|level| level.size), Some([1, 1]));
         }
     }

@@ -1,10 +1,7 @@
 //! The mean of the latest frames (§7.2).
 
-use super::kind::{About, Effect, Rules};
-use crate::render::draw::cost::{Cost, Per};
-use crate::render::draw::plan::{Plan, Text, tell};
+use super::kind::{About, Bound, Cost, Effect, Per, Plan, Rules, Text, tell};
 use crate::render::measure::picture::Picture;
-use crate::render::scene_file::bound::Bound;
 use core::num::NonZeroU32;
 use serde::Deserialize;
 
@@ -17,13 +14,12 @@ pub struct Average {
 }
 
 impl Effect for Average {
-    const ABOUT: About = About {
-        citation: "§7.2",
-        does: "Averages frames, as temporal antialiasing does",
-        costs: "samples: one blend a pixel and frame",
-        bounds: &[("frames", Bound::CYCLE)],
-        techniques: &[],
-    };
+    const ABOUT: About = About::new(
+        "§7.2",
+        "Averages frames, as temporal antialiasing does",
+        "samples: one blend a pixel and frame",
+    )
+    .bounds(&[("frames", Bound::CYCLE)]);
 
     fn rules(&self) -> Rules {
         Rules::default()

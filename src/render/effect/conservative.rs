@@ -1,9 +1,8 @@
 //! Every pixel that a surface touches, and thresholds by the share that it covers (§2, Fig. 4):
 //! [`conservative`](crate::technique::conservative).
 
-use super::kind::{About, Effect, Role, Rules, Technique};
+use super::kind::{About, Effect, Phase, Plan, Role, Rules, Text, techniques, tell};
 use crate::render::draw::fragments::Fragments;
-use crate::render::draw::plan::{Phase, Plan, Text, tell};
 use crate::render::draw::work::PIXELS;
 use crate::shader::beside;
 use crate::technique::conservative::corrected;
@@ -24,18 +23,15 @@ fn yes() -> bool {
 }
 
 impl Effect for Conservative {
-    const ABOUT: About = About {
-        citation: "§2, Fig. 4",
-        does: "Draws every pixel that a surface touches, and corrects the threshold by the share that it covers",
-        costs: "fragments: one for every pixel and triangle that touch",
-        bounds: &[],
-        techniques: &[Technique {
-            name: "conservative",
-            source: "§2, Fig. 4",
-            claim: "Every card draws; the threshold must allow for its share of the pixel.",
-            shown: ["sub-pixel-cards", "touching, corrected"],
-        }],
-    };
+    const ABOUT: About = About::new(
+        "§2, Fig. 4",
+        "Draws every pixel that a surface touches, and corrects the threshold by the share that it covers",
+        "fragments: one for every pixel and triangle that touch",
+    )
+    .techniques(techniques![
+        "conservative": "§2, Fig. 4", "sub-pixel-cards" / "touching, corrected",
+            "Every card draws; the threshold must allow for its share of the pixel.";
+    ]);
 
     fn rules(&self) -> Rules {
         Rules::of(&[Role::Test, Role::Pixels])

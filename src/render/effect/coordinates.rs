@@ -1,8 +1,7 @@
 //! Other coordinates than those of the object to hash in (§5.2, §5.3).
 
-use super::kind::{About, Effect, Role, Rules};
+use super::kind::{About, Effect, Plan, Role, Rules, Text, tell};
 use crate::render::draw::fragments::Space;
-use crate::render::draw::plan::{Plan, Text, tell};
 use serde::Deserialize;
 
 /// What is hashed.
@@ -14,13 +13,7 @@ pub struct Coordinates {
 }
 
 impl Effect for Coordinates {
-    const ABOUT: About = About {
-        citation: "§5.2, §5.3",
-        does: "Hashes in other than object coordinates",
-        costs: "nothing",
-        bounds: &[],
-        techniques: &[],
-    };
+    const ABOUT: About = About::new("§5.2, §5.3", "Hashes in other than object coordinates", "nothing");
 
     fn rules(&self) -> Rules {
         Rules::default().needs(Role::Hash)

@@ -1,8 +1,6 @@
 //! Noise that fades in with distance (§7.1, Eqs. 3 to 5): [`fade_in`](crate::threshold::stage::fade_in).
 
-use super::kind::{About, Effect, Role, Rules, Technique};
-use crate::render::draw::plan::{Plan, Text, tell};
-use crate::render::scene_file::bound::Bound;
+use super::kind::{About, Bound, Effect, Plan, Role, Rules, Text, techniques, tell};
 use crate::threshold::stage::fade_in;
 use serde::Deserialize;
 
@@ -26,32 +24,17 @@ impl Default for FadeIn {
 }
 
 impl Effect for FadeIn {
-    const ABOUT: About = About {
-        citation: "§7.1, Eqs. 3 to 5",
-        does: "Fades noise in with distance",
-        costs: "nothing but a mixture",
-        bounds: &[("full_noise_lod", Bound::UpTo(1.0e6)), ("authored", Bound::THRESHOLD)],
-        techniques: &[
-            Technique {
-                name: "fade-in",
-                source: "§7.1, Eqs. 3-5",
-                claim: "Noise fades in with distance, near surfaces stay crisp.",
-                shown: ["fade-in", "faded in"],
-            },
-            Technique {
-                name: "anisotropy-factor",
-                source: "§7.1.1",
-                claim: "Noise fades in earlier at grazing angles, where fine levels are read.",
-                shown: ["grazing-fence", "faded in by anisotropy"],
-            },
-            Technique {
-                name: "blend-towards",
-                source: "not in the paper",
-                claim: "Noise fades in from a threshold of the artist's.",
-                shown: ["fade-in", "faded in from 0.25"],
-            },
-        ],
-    };
+    const ABOUT: About =
+        About::new("§7.1, Eqs. 3 to 5", "Fades noise in with distance", "nothing but a mixture")
+            .bounds(&[("full_noise_lod", Bound::UpTo(1.0e6)), ("authored", Bound::THRESHOLD)])
+            .techniques(techniques![
+                "fade-in": "§7.1, Eqs. 3-5", "fade-in" / "faded in",
+                    "Noise fades in with distance, near surfaces stay crisp.";
+                "anisotropy-factor": "§7.1.1", "grazing-fence" / "faded in by anisotropy",
+                    "Noise fades in earlier at grazing angles, where fine levels are read.";
+                "blend-towards": "not in the paper", "fade-in" / "faded in from 0.25",
+                    "Noise fades in from a threshold of the artist's.";
+            ]);
 
     fn rules(&self) -> Rules {
         Rules::default().needs(Role::Noise)

@@ -1,7 +1,6 @@
 //! Alpha from the finest level (§3): [`finest_level`](crate::technique::prior_work::finest_level).
 
-use super::kind::{About, Effect, Role, Rules, Technique};
-use crate::render::draw::plan::{Plan, Text, tell};
+use super::kind::{About, Effect, Plan, Role, Rules, Text, techniques, tell};
 use serde::Deserialize;
 
 /// Alpha from the finest level.
@@ -10,18 +9,15 @@ use serde::Deserialize;
 pub struct FinestLevel {}
 
 impl Effect for FinestLevel {
-    const ABOUT: About = About {
-        citation: "§3",
-        does: "Reads alpha from the finest level, however far the surface",
-        costs: "texels: as many, but far apart",
-        bounds: &[],
-        techniques: &[Technique {
-            name: "finest-level",
-            source: "§3",
-            claim: "Alpha from the finest level keeps its variance, and costs a second fetch and temporal stability.",
-            shown: ["mips-and-wires", "finest level"],
-        }],
-    };
+    const ABOUT: About = About::new(
+        "§3",
+        "Reads alpha from the finest level, however far the surface",
+        "texels: as many, but far apart",
+    )
+    .techniques(techniques![
+        "finest-level": "§3", "mips-and-wires" / "finest level",
+            "Alpha from the finest level keeps its variance, and costs a second fetch and temporal stability.";
+    ]);
 
     fn rules(&self) -> Rules {
         Rules::of(&[Role::Level, Role::Finest])

@@ -1,8 +1,6 @@
 //! One threshold for all: [`fixed`](crate::threshold::fixed).
 
-use super::kind::{About, Effect, Role, Rules, Technique};
-use crate::render::draw::plan::{Plan, Text, tell};
-use crate::render::scene_file::bound::Bound;
+use super::kind::{About, Bound, Effect, Plan, Role, Rules, Text, techniques, tell};
 use crate::threshold::pipeline::Source;
 use serde::Deserialize;
 
@@ -20,18 +18,12 @@ fn half() -> f32 {
 }
 
 impl Effect for Fixed {
-    const ABOUT: About = About {
-        citation: "§1",
-        does: "Compares alpha with one threshold",
-        costs: "nothing but the test",
-        bounds: &[("threshold", Bound::THRESHOLD)],
-        techniques: &[Technique {
-            name: "fixed",
-            source: "§1",
-            claim: "Geometry vanishes with distance where the mean alpha is below the threshold.",
-            shown: ["vanishing-foliage", "alpha test"],
-        }],
-    };
+    const ABOUT: About = About::new("§1", "Compares alpha with one threshold", "nothing but the test")
+        .bounds(&[("threshold", Bound::THRESHOLD)])
+        .techniques(techniques![
+            "fixed": "§1", "vanishing-foliage" / "alpha test",
+                "Geometry vanishes with distance where the mean alpha is below the threshold.";
+        ]);
 
     fn rules(&self) -> Rules {
         Rules::of(&[Role::Threshold])

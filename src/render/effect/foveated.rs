@@ -1,8 +1,6 @@
 //! Coarser levels away from where the viewer looks (§11): [`foveated`](crate::technique::foveated).
 
-use super::kind::{About, Effect, Role, Rules, Technique};
-use crate::render::draw::plan::{Plan, Text, tell};
-use crate::render::scene_file::bound::Bound;
+use super::kind::{About, Bound, Effect, Plan, Role, Rules, Text, techniques, tell};
 use crate::shader::beside;
 use crate::technique::foveated::Gaze;
 use serde::Deserialize;
@@ -20,22 +18,16 @@ pub struct Foveated {
 }
 
 impl Effect for Foveated {
-    const ABOUT: About = About {
-        citation: "§11, Fig. 15 (Patney et al. 2016)",
-        does: "Reads coarser levels away from where the viewer looks",
-        costs: "nothing: texels as many, but nearer together",
-        bounds: &[
-            ("gaze", Bound::From(-1.0e6, 1.0e6)),
-            ("radius", Bound::From(0.0, 1.0e6)),
-            ("slope", Bound::From(0.0, 1.0e6)),
-        ],
-        techniques: &[Technique {
-            name: "foveated",
-            source: "§11, Fig. 15 (Patney et al. 2016)",
-            claim: "Coarser levels away from the gaze lose foliage under a fixed test and keep it under a hashed one.",
-            shown: ["foveated", "hashed, foveated"],
-        }],
-    };
+    const ABOUT: About = About::new(
+        "§11, Fig. 15 (Patney et al. 2016)",
+        "Reads coarser levels away from where the viewer looks",
+        "nothing: texels as many, but nearer together",
+    )
+    .bounds(&[("gaze", Bound::From(-1.0e6, 1.0e6)), ("radius", Bound::From(0.0, 1.0e6)), ("slope", Bound::From(0.0, 1.0e6))])
+    .techniques(techniques![
+        "foveated": "§11, Fig. 15 (Patney et al. 2016)", "foveated" / "hashed, foveated",
+            "Coarser levels away from the gaze lose foliage under a fixed test and keep it under a hashed one.";
+    ]);
 
     fn rules(&self) -> Rules {
         Rules::default().never(Role::Finest, "the first reads coarser levels and the second none")

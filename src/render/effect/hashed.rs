@@ -1,8 +1,6 @@
 //! The listings to the letter (§5, §6): [`hashed`](crate::threshold::hashed).
 
-use super::kind::{About, Effect, Role, Rules, Technique, by_name};
-use crate::render::draw::plan::{Plan, Text, tell};
-use crate::render::scene_file::bound::Bound;
+use super::kind::{About, Bound, Effect, Plan, Role, Rules, Text, by_name, techniques, tell};
 use crate::threshold::cdf::CdfForm;
 use crate::threshold::hash::HashKind;
 use crate::threshold::hashed::HashedAlpha;
@@ -37,38 +35,22 @@ impl Default for Hashed {
 }
 
 impl Effect for Hashed {
-    const ABOUT: About = About {
-        citation: "§5, §6, Listings 1 and 2",
-        does: "Hashes a threshold from the place on the surface, to the letter",
-        costs: "hashes: 2 a fragment (1 for the single scale)",
-        bounds: &[("hash_scale", Bound::RATIO)],
-        techniques: &[
-            Technique {
-                name: "single-scale",
-                source: "§5.4.1",
-                claim: "Noise of one pixel is stable under shifts within a pixel, and not along the view.",
-                shown: ["octaves", "one scale"],
-            },
-            Technique {
-                name: "linear-scales",
-                source: "§5.4.2",
-                claim: "Two linear scales change slowly, and fail for derivatives below one.",
-                shown: ["octaves", "linear"],
-            },
-            Technique {
-                name: "hashed-isotropic",
-                source: "§5, Listing 1",
-                claim: "Coverage of stochastic alpha testing, stability of the traditional test.",
-                shown: ["vanishing-foliage", "hashed"],
-            },
-            Technique {
-                name: "hashed-anisotropic",
-                source: "§6, Listing 2",
-                claim: "Noise keeps the size of a pixel along both screen axes at grazing angles.",
-                shown: ["grazing-fence", "anisotropic"],
-            },
-        ],
-    };
+    const ABOUT: About = About::new(
+        "§5, §6, Listings 1 and 2",
+        "Hashes a threshold from the place on the surface, to the letter",
+        "hashes: 2 a fragment (1 for the single scale)",
+    )
+    .bounds(&[("hash_scale", Bound::RATIO)])
+    .techniques(techniques![
+        "single-scale": "§5.4.1", "octaves" / "one scale",
+            "Noise of one pixel is stable under shifts within a pixel, and not along the view.";
+        "linear-scales": "§5.4.2", "octaves" / "linear",
+            "Two linear scales change slowly, and fail for derivatives below one.";
+        "hashed-isotropic": "§5, Listing 1", "vanishing-foliage" / "hashed",
+            "Coverage of stochastic alpha testing, stability of the traditional test.";
+        "hashed-anisotropic": "§6, Listing 2", "grazing-fence" / "anisotropic",
+            "Noise keeps the size of a pixel along both screen axes at grazing angles.";
+    ]);
 
     fn rules(&self) -> Rules {
         Rules::of(&[Role::Threshold, Role::Noise, Role::Hash, Role::Varied])

@@ -1,12 +1,9 @@
 //! An exponential average of frames (§7.2, Karis 2014): [`history`](crate::technique::history).
 
-use super::kind::{About, Effect, Role, Rules, Technique};
-use crate::render::draw::cost::{Cost, Per};
+use super::kind::{About, Bound, Cost, Effect, Per, Plan, Role, Rules, Text, techniques, tell};
 use crate::render::draw::plan::Moment;
-use crate::render::draw::plan::{Plan, Text, tell};
 use crate::render::measure::depth::Depth;
 use crate::render::measure::picture::Picture;
-use crate::render::scene_file::bound::Bound;
 use crate::technique::history::{self, way_back};
 use glam::{DVec2, dvec2};
 use serde::Deserialize;
@@ -26,26 +23,18 @@ pub struct History {
 }
 
 impl Effect for History {
-    const ABOUT: About = About {
-        citation: "§7.2 (Karis 2014)",
-        does: "Averages frames exponentially, as temporal antialiasing does",
-        costs: "blends: 1 a pixel and frame; projections: 1 a pixel and frame if reprojected",
-        bounds: &[("weight", Bound::UpTo(1.0))],
-        techniques: &[
-            Technique {
-                name: "temporal-antialiasing",
-                source: "§7.2 (Karis 2014)",
-                claim: "An exponential average weighs the latest frames most.",
-                shown: ["temporal-ghosts", "phase-rotated"],
-            },
-            Technique {
-                name: "reprojected-history",
-                source: "§7.2 (Karis 2014)",
-                claim: "The average is looked up where the motion of the camera has left it, and follows surfaces; what they uncover keeps a ghost.",
-                shown: ["temporal-ghosts", "phase-rotated, reprojected"],
-            },
-        ],
-    };
+    const ABOUT: About = About::new(
+        "§7.2 (Karis 2014)",
+        "Averages frames exponentially, as temporal antialiasing does",
+        "blends: 1 a pixel and frame; projections: 1 a pixel and frame if reprojected",
+    )
+    .bounds(&[("weight", Bound::UpTo(1.0))])
+    .techniques(techniques![
+        "temporal-antialiasing": "§7.2 (Karis 2014)", "temporal-ghosts" / "phase-rotated",
+            "An exponential average weighs the latest frames most.";
+        "reprojected-history": "§7.2 (Karis 2014)", "temporal-ghosts" / "phase-rotated, reprojected",
+            "The average is looked up where the motion of the camera has left it, and follows surfaces; what they uncover keeps a ghost.";
+    ]);
 
     fn rules(&self) -> Rules {
         if self.reproject {

@@ -1,9 +1,6 @@
 //! Frames with hashes of their own (§7.2.2): [`independent`](crate::threshold::stage::independent).
 
-use super::kind::{About, Effect, Role, Rules, Technique};
-use crate::render::draw::plan::{Plan, Text, tell};
-use crate::render::scene_file::bound::Bound;
-use crate::render::scene_file::diagnostic::Diagnostic;
+use super::kind::{About, Bound, Diagnostic, Effect, Plan, Role, Rules, Text, techniques, tell};
 use crate::threshold::hash::HashKind;
 use crate::threshold::pipeline::Source;
 use crate::threshold::stage::independent::{Independence, IndependentBy};
@@ -30,26 +27,15 @@ enum ByName {
 }
 
 impl Effect for Independent {
-    const ABOUT: About = About {
-        citation: "§7.2.2",
-        does: "Hashes at another place in every frame",
-        costs: "nothing but an addition a hash",
-        bounds: &[("frames", Bound::CYCLE)],
-        techniques: &[
-            Technique {
-                name: "independent-hashes",
-                source: "§7.2.2",
-                claim: "Offsets in hash space give independent thresholds for each frame; the average flickers.",
-                shown: ["temporal-orders", "independent, 8"],
-            },
-            Technique {
-                name: "frame-word",
-                source: "not in the paper",
-                claim: "The same by a word that the hash reads.",
-                shown: ["temporal-orders", "word, 8"],
-            },
-        ],
-    };
+    const ABOUT: About =
+        About::new("§7.2.2", "Hashes at another place in every frame", "nothing but an addition a hash")
+            .bounds(&[("frames", Bound::CYCLE)])
+            .techniques(techniques![
+                "independent-hashes": "§7.2.2", "temporal-orders" / "independent, 8",
+                    "Offsets in hash space give independent thresholds for each frame; the average flickers.";
+                "frame-word": "not in the paper", "temporal-orders" / "word, 8",
+                    "The same by a word that the hash reads.";
+            ]);
 
     fn rules(&self) -> Rules {
         Rules::default().needs(Role::Hash)

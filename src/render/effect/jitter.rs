@@ -1,8 +1,6 @@
 //! A camera that moves within a pixel (§7.2): [`jitter`](crate::technique::jitter).
 
-use super::kind::{About, Effect, Rules, Technique};
-use crate::render::draw::plan::{Plan, Text, tell};
-use crate::render::scene_file::bound::Bound;
+use super::kind::{About, Bound, Effect, Plan, Rules, Text, techniques, tell};
 use core::num::NonZeroU32;
 use serde::Deserialize;
 
@@ -15,18 +13,12 @@ pub struct Jitter {
 }
 
 impl Effect for Jitter {
-    const ABOUT: About = About {
-        citation: "§7.2",
-        does: "Moves the camera within a pixel from frame to frame",
-        costs: "nothing",
-        bounds: &[("frames", Bound::CYCLE)],
-        techniques: &[Technique {
-            name: "camera-jitter",
-            source: "§7.2",
-            claim: "Averaged frames see different places within a pixel.",
-            shown: ["temporal-noise", "noise of 1 pixel"],
-        }],
-    };
+    const ABOUT: About = About::new("§7.2", "Moves the camera within a pixel from frame to frame", "nothing")
+        .bounds(&[("frames", Bound::CYCLE)])
+        .techniques(techniques![
+            "camera-jitter": "§7.2", "temporal-noise" / "noise of 1 pixel",
+                "Averaged frames see different places within a pixel.";
+        ]);
 
     fn rules(&self) -> Rules {
         Rules::default()

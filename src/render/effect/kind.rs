@@ -1,9 +1,10 @@
 //! What an effect is: a table of a scene file with its words, the bounds of its numbers, what it does not go with, and the
 //! stages that it adds to a plan.
 
-use crate::render::draw::plan::Plan;
-use crate::render::scene_file::bound::Bound;
-use crate::render::scene_file::diagnostic::Diagnostic;
+pub use crate::render::draw::cost::{Cost, Per};
+pub use crate::render::draw::plan::{Phase, Plan, Text, tell};
+pub use crate::render::scene_file::bound::Bound;
+pub use crate::render::scene_file::diagnostic::Diagnostic;
 use crate::threshold::two_scale::Variant;
 use core::fmt::{Debug, Display};
 use core::num::NonZeroU32;
@@ -47,6 +48,26 @@ pub struct About {
     pub techniques: &'static [Technique],
 }
 
+impl About {
+    /// An effect by its place in the sources, by what it does and by what that costs.
+    #[must_use]
+    pub const fn new(citation: &'static str, does: &'static str, costs: &'static str) -> Self {
+        Self { citation, does, costs, bounds: &[], techniques: &[] }
+    }
+
+    /// The same with a bound for each number of its table; without, any number goes.
+    #[must_use]
+    pub const fn bounds(self, bounds: &'static [(&'static str, Bound)]) -> Self {
+        Self { bounds, ..self }
+    }
+
+    /// The same as the price of techniques.
+    #[must_use]
+    pub const fn techniques(self, techniques: &'static [Technique]) -> Self {
+        Self { techniques, ..self }
+    }
+}
+
 /// A technique that the sources name, as a scene of the gallery shows it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Technique {
@@ -59,6 +80,20 @@ pub struct Technique {
     /// The scene of the gallery that shows it, and the take of that scene.
     pub shown: [&'static str; 2],
 }
+
+/// A table of techniques: name, source, scene and take, claim.
+macro_rules! techniques {
+    ($($name:literal: $source:literal, $scene:literal / $take:literal, $claim:literal;)*) => {
+        &[$($crate::render::effect::kind::Technique {
+            name: $name,
+            source: $source,
+            claim: $claim,
+            shown: [$scene, $take],
+        }),*]
+    };
+}
+
+pub(in crate::render) use techniques;
 
 /// What an effect is to others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

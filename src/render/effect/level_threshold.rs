@@ -1,7 +1,6 @@
 //! A threshold for each level (§3, Eq. 1): [`level_threshold`](crate::technique::prior_work::level_threshold).
 
-use super::kind::{About, Effect, Role, Rules, Technique};
-use crate::render::draw::plan::{Phase, Plan, Text, tell};
+use super::kind::{About, Effect, Phase, Plan, Role, Rules, Text, techniques, tell};
 use crate::render::draw::texture::{Change, REFERENCE, Texture};
 use crate::technique::prior_work::level_threshold::level_threshold;
 use crate::threshold::pipeline::Source;
@@ -13,18 +12,15 @@ use serde::Deserialize;
 pub struct LevelThreshold {}
 
 impl Effect for LevelThreshold {
-    const ABOUT: About = About {
-        citation: "§3, Eq. 1",
-        does: "Compares with a threshold for each level, so that all pass the share of the finest",
-        costs: "nothing but the test; a pass over the texture beforehand",
-        bounds: &[],
-        techniques: &[Technique {
-            name: "level-threshold",
-            source: "§3, Eq. 1",
-            claim: "A threshold for each level keeps the share of passing texels; geometry can still vanish.",
-            shown: ["mips-and-wires", "a threshold a level"],
-        }],
-    };
+    const ABOUT: About = About::new(
+        "§3, Eq. 1",
+        "Compares with a threshold for each level, so that all pass the share of the finest",
+        "nothing but the test; a pass over the texture beforehand",
+    )
+    .techniques(techniques![
+        "level-threshold": "§3, Eq. 1", "mips-and-wires" / "a threshold a level",
+            "A threshold for each level keeps the share of passing texels; geometry can still vanish.";
+    ]);
 
     fn rules(&self) -> Rules {
         Rules::of(&[Role::Threshold, Role::Varied])

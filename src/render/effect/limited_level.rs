@@ -1,8 +1,6 @@
 //! Alpha from no level coarser than a given one (§3): [`finest_level`](crate::technique::prior_work::finest_level).
 
-use super::kind::{About, Effect, Role, Rules, Technique};
-use crate::render::draw::plan::{Plan, Text, tell};
-use crate::render::scene_file::bound::Bound;
+use super::kind::{About, Bound, Effect, Plan, Role, Rules, Text, techniques, tell};
 use serde::Deserialize;
 
 /// Alpha from no coarser level.
@@ -14,18 +12,16 @@ pub struct LimitedLevel {
 }
 
 impl Effect for LimitedLevel {
-    const ABOUT: About = About {
-        citation: "§3",
-        does: "Reads alpha from no level coarser than a given one",
-        costs: "texels: as many, but further apart",
-        bounds: &[("level", Bound::From(0.0, 64.0))],
-        techniques: &[Technique {
-            name: "limited-level",
-            source: "§3",
-            claim: "Levels beyond a limit are not read; the cost is that of the finest level, put off.",
-            shown: ["mips-and-wires", "no coarser than level 3"],
-        }],
-    };
+    const ABOUT: About = About::new(
+        "§3",
+        "Reads alpha from no level coarser than a given one",
+        "texels: as many, but further apart",
+    )
+    .bounds(&[("level", Bound::From(0.0, 64.0))])
+    .techniques(techniques![
+        "limited-level": "§3", "mips-and-wires" / "no coarser than level 3",
+            "Levels beyond a limit are not read; the cost is that of the finest level, put off.";
+    ]);
 
     fn rules(&self) -> Rules {
         Rules::of(&[Role::Level])

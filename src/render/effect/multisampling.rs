@@ -1,9 +1,7 @@
 //! Geometry tested at several places of each pixel (§1, §2, §8):
 //! [`multisampling`](crate::technique::multisampling).
 
-use super::kind::{About, Effect, Role, Rules, Technique};
-use crate::render::draw::plan::{Plan, Text, tell};
-use crate::render::scene_file::bound::Bound;
+use super::kind::{About, Bound, Effect, Plan, Role, Rules, Text, techniques, tell};
 use core::num::NonZeroU32;
 use serde::Deserialize;
 
@@ -16,18 +14,16 @@ pub struct Multisampling {
 }
 
 impl Effect for Multisampling {
-    const ABOUT: About = About {
-        citation: "§1, §2, §8",
-        does: "Tests geometry at several places of each pixel, and reads alpha once",
-        costs: "fragments: one for every pixel and triangle that meet in a sample",
-        bounds: &[("samples", Bound::SAMPLES)],
-        techniques: &[Technique {
-            name: "multisampling",
-            source: "§1, §2, §8",
-            claim: "Edges of geometry are smoothed; edges of alpha, which is read once a pixel, are not.",
-            shown: ["multisample", "multisampled test"],
-        }],
-    };
+    const ABOUT: About = About::new(
+        "§1, §2, §8",
+        "Tests geometry at several places of each pixel, and reads alpha once",
+        "fragments: one for every pixel and triangle that meet in a sample",
+    )
+    .bounds(&[("samples", Bound::SAMPLES)])
+    .techniques(techniques![
+        "multisampling": "§1, §2, §8", "multisample" / "multisampled test",
+            "Edges of geometry are smoothed; edges of alpha, which is read once a pixel, are not.";
+    ]);
 
     fn rules(&self) -> Rules {
         Rules::of(&[Role::Test])

@@ -1,8 +1,6 @@
 //! Blending without a test (§3): [`test_then_blend`](crate::technique::prior_work::test_then_blend).
 
-use super::kind::{About, Effect, Role, Rules, Technique};
-use crate::render::draw::cost::{Cost, Per};
-use crate::render::draw::plan::{Phase, Plan, Text, tell};
+use super::kind::{About, Cost, Effect, Per, Phase, Plan, Role, Rules, Text, techniques, tell};
 use crate::technique::prior_work::test_then_blend::naive;
 use serde::Deserialize;
 
@@ -12,18 +10,15 @@ use serde::Deserialize;
 pub struct NaiveBlend {}
 
 impl Effect for NaiveBlend {
-    const ABOUT: About = About {
-        citation: "§3",
-        does: "Blends every fragment as it comes, with depth and without a test",
-        costs: "blends: 1 a fragment; no tests",
-        bounds: &[],
-        techniques: &[Technique {
-            name: "naive-blend",
-            source: "§3",
-            claim: "Blending in any order with depth writes leaves halos.",
-            shown: ["blending", "naive blend"],
-        }],
-    };
+    const ABOUT: About = About::new(
+        "§3",
+        "Blends every fragment as it comes, with depth and without a test",
+        "blends: 1 a fragment; no tests",
+    )
+    .techniques(techniques![
+        "naive-blend": "§3", "blending" / "naive blend",
+            "Blending in any order with depth writes leaves halos.";
+    ]);
 
     fn rules(&self) -> Rules {
         Rules::of(&[Role::Blends])

@@ -1,12 +1,11 @@
 //! One ray a pixel into the open, with noise that stays with the surface (§9, Fig. 8):
 //! [`occlusion`](crate::technique::occlusion).
 
-use super::kind::{About, Effect, Role, Rules, Technique, by_name, two_scales};
-use crate::render::draw::cost::{Cost, Per};
-use crate::render::draw::plan::{Phase, Plan, Text, tell};
+use super::kind::{
+    About, Bound, Cost, Diagnostic, Effect, Per, Phase, Plan, Role, Rules, Text, by_name, techniques, tell,
+    two_scales,
+};
 use crate::render::draw::work::{NONE, PIXELS, Shading, TileResult, Work};
-use crate::render::scene_file::bound::Bound;
-use crate::render::scene_file::diagnostic::Diagnostic;
 use crate::shader::beside;
 use crate::technique::occlusion::{chi_by_offsets, chi_by_two_hashes, chi_by_word, generator};
 use crate::threshold::footprint::Footprint;
@@ -72,26 +71,18 @@ impl Chi {
 }
 
 impl Effect for Occlusion {
-    const ABOUT: About = About {
-        citation: "§9, Fig. 8",
-        does: "Traces one ray a pixel into the open, in a direction that stays with the surface",
-        costs: "rays: 1 for each pixel that shows a surface; hashes or random numbers: 2 values a ray",
-        bounds: &[("reach", Bound::LENGTH)],
-        techniques: &[
-            Technique {
-                name: "hashed-occlusion",
-                source: "§9, Fig. 8",
-                claim: "One ray a pixel, with noise that stays fixed to the geometry.",
-                shown: ["occlusion", "two hashes, anisotropic"],
-            },
-            Technique {
-                name: "hash-seeded-generator",
-                source: "§9",
-                claim: "A hash that returns an integer seeds an ordinary generator.",
-                shown: ["occlusion", "seeded"],
-            },
-        ],
-    };
+    const ABOUT: About = About::new(
+        "§9, Fig. 8",
+        "Traces one ray a pixel into the open, in a direction that stays with the surface",
+        "rays: 1 for each pixel that shows a surface; hashes or random numbers: 2 values a ray",
+    )
+    .bounds(&[("reach", Bound::LENGTH)])
+    .techniques(techniques![
+        "hashed-occlusion": "§9, Fig. 8", "occlusion" / "two hashes, anisotropic",
+            "One ray a pixel, with noise that stays fixed to the geometry.";
+        "hash-seeded-generator": "§9", "occlusion" / "seeded",
+            "A hash that returns an integer seeds an ordinary generator.";
+    ]);
 
     fn rules(&self) -> Rules {
         Rules::of(&[Role::Test, Role::Pixels])

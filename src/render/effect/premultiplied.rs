@@ -1,7 +1,6 @@
 //! Colours multiplied by alpha (§7.3): [`premultiplied`](crate::technique::premultiplied).
 
-use super::kind::{About, Effect, Rules, Technique};
-use crate::render::draw::plan::{Plan, Text, tell};
+use super::kind::{About, Effect, Plan, Rules, Text, techniques, tell};
 use serde::Deserialize;
 
 /// Colours multiplied by alpha.
@@ -10,18 +9,15 @@ use serde::Deserialize;
 pub struct Premultiplied {}
 
 impl Effect for Premultiplied {
-    const ABOUT: About = About {
-        citation: "§7.3",
-        does: "Stores colours multiplied by alpha and divides after filtering",
-        costs: "a division a shaded sample",
-        bounds: &[],
-        techniques: &[Technique {
-            name: "premultiplied-alpha",
-            source: "§7.3",
-            claim: "Premultiplied colours leave no halo and need a divide.",
-            shown: ["halo", "premultiplied"],
-        }],
-    };
+    const ABOUT: About = About::new(
+        "§7.3",
+        "Stores colours multiplied by alpha and divides after filtering",
+        "a division a shaded sample",
+    )
+    .techniques(techniques![
+        "premultiplied-alpha": "§7.3", "halo" / "premultiplied",
+            "Premultiplied colours leave no halo and need a divide.";
+    ]);
 
     fn rules(&self) -> Rules {
         Rules::default()

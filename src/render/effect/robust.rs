@@ -1,9 +1,8 @@
 //! The listings with every repair: [`robust`](crate::threshold::robust).
 
-use super::kind::{About, Effect, Role, Rules, Technique, by_name, two_scales};
-use crate::render::draw::plan::{Plan, Text, tell};
-use crate::render::scene_file::bound::Bound;
-use crate::render::scene_file::diagnostic::Diagnostic;
+use super::kind::{
+    About, Bound, Diagnostic, Effect, Plan, Role, Rules, Text, by_name, techniques, tell, two_scales,
+};
 use crate::threshold::hash::HashKind;
 use crate::threshold::model::Model;
 use crate::threshold::pipeline::Source;
@@ -41,26 +40,18 @@ fn if_any<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Join>, D:
 }
 
 impl Effect for RobustHash {
-    const ABOUT: About = About {
-        citation: "not in the paper",
-        does: "Hashes a threshold with every repair",
-        costs: "hashes: 2 to 8 a fragment, by join and variant",
-        bounds: &[("hash_scale", Bound::RATIO)],
-        techniques: &[
-            Technique {
-                name: "robust",
-                source: "not in the paper",
-                claim: "The listings with every repair: a threshold for every input, without jumps.",
-                shown: ["axis-plane", "robust anisotropic"],
-            },
-            Technique {
-                name: "noise-scale",
-                source: "§7.2.1",
-                claim: "Noise of sqrt(1/n) pixels holds n values a pixel, and is less stable.",
-                shown: ["temporal-noise", "noise of sqrt(1/8) pixels"],
-            },
-        ],
-    };
+    const ABOUT: About = About::new(
+        "not in the paper",
+        "Hashes a threshold with every repair",
+        "hashes: 2 to 8 a fragment, by join and variant",
+    )
+    .bounds(&[("hash_scale", Bound::RATIO)])
+    .techniques(techniques![
+        "robust": "not in the paper", "axis-plane" / "robust anisotropic",
+            "The listings with every repair: a threshold for every input, without jumps.";
+        "noise-scale": "§7.2.1", "temporal-noise" / "noise of sqrt(1/8) pixels",
+            "Noise of sqrt(1/n) pixels holds n values a pixel, and is less stable.";
+    ]);
 
     fn rules(&self) -> Rules {
         Rules::of(&[Role::Threshold, Role::Noise, Role::Hash, Role::Varied])

@@ -1,7 +1,6 @@
 //! Alphas scaled by level (Castano 2010): [`scaled_alpha`](crate::technique::prior_work::scaled_alpha).
 
-use super::kind::{About, Effect, Role, Rules, Technique};
-use crate::render::draw::plan::{Plan, Text, tell};
+use super::kind::{About, Effect, Plan, Role, Rules, Text, techniques, tell};
 use crate::render::draw::texture::{Change, REFERENCE, Texture};
 use crate::technique::prior_work::scaled_alpha::{alpha_scale, scaled};
 use serde::Deserialize;
@@ -12,18 +11,15 @@ use serde::Deserialize;
 pub struct ScaledAlpha {}
 
 impl Effect for ScaledAlpha {
-    const ABOUT: About = About {
-        citation: "§3 (Castano 2010)",
-        does: "Scales the stored alphas of each level to that effect",
-        costs: "nothing; a pass over the texture beforehand",
-        bounds: &[],
-        techniques: &[Technique {
-            name: "scaled-alpha",
-            source: "§3 (Castano 2010)",
-            claim: "Scaled alphas are equivalent to a threshold for each level, and dilate thin geometry.",
-            shown: ["castano", "scaled alpha"],
-        }],
-    };
+    const ABOUT: About = About::new(
+        "§3 (Castano 2010)",
+        "Scales the stored alphas of each level to that effect",
+        "nothing; a pass over the texture beforehand",
+    )
+    .techniques(techniques![
+        "scaled-alpha": "§3 (Castano 2010)", "castano" / "scaled alpha",
+            "Scaled alphas are equivalent to a threshold for each level, and dilate thin geometry.";
+    ]);
 
     fn rules(&self) -> Rules {
         Rules::of(&[Role::Scale])

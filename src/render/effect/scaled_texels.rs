@@ -1,9 +1,7 @@
 //! Alphas scaled by texel (§3): [`scaled_alpha`](crate::technique::prior_work::scaled_alpha).
 
-use super::kind::{About, Effect, Role, Rules, Technique};
-use crate::render::draw::plan::{Plan, Text, tell};
+use super::kind::{About, Bound, Effect, Plan, Role, Rules, Text, techniques, tell};
 use crate::render::draw::texture::{Change, REFERENCE, Texture};
-use crate::render::scene_file::bound::Bound;
 use crate::technique::prior_work::scaled_alpha::{alpha_scale, scaled, scaled_by_texel};
 use serde::Deserialize;
 
@@ -17,18 +15,16 @@ pub struct ScaledTexels {
 }
 
 impl Effect for ScaledTexels {
-    const ABOUT: About = About {
-        citation: "§3",
-        does: "Scales each stored alpha by the share of the texels around it",
-        costs: "nothing; passes over the texture beforehand",
-        bounds: &[("radius", Bound::From(0.0, 64.0))],
-        techniques: &[Technique {
-            name: "texel-threshold",
-            source: "§3",
-            claim: "A threshold for each texel needs a rule that is not obvious, and may only dilate boundaries.",
-            shown: ["castano", "scaled texels"],
-        }],
-    };
+    const ABOUT: About = About::new(
+        "§3",
+        "Scales each stored alpha by the share of the texels around it",
+        "nothing; passes over the texture beforehand",
+    )
+    .bounds(&[("radius", Bound::From(0.0, 64.0))])
+    .techniques(techniques![
+        "texel-threshold": "§3", "castano" / "scaled texels",
+            "A threshold for each texel needs a rule that is not obvious, and may only dilate boundaries.";
+    ]);
 
     fn rules(&self) -> Rules {
         Rules::of(&[Role::Scale])

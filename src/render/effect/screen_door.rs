@@ -1,7 +1,6 @@
 //! Masks over tiles of pixels (§3, §8.1): [`screen_door`](crate::threshold::stage::screen_door).
 
-use super::kind::{About, Effect, Role, Rules, Technique, one_of};
-use crate::render::draw::plan::{Plan, Text, tell};
+use super::kind::{About, Effect, Plan, Role, Rules, Text, one_of, techniques, tell};
 use crate::threshold::pipeline::Source;
 use crate::threshold::stage::screen_door::ScreenDoor as Mask;
 use serde::{Deserialize, Deserializer};
@@ -20,32 +19,19 @@ fn mask<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Mask, D::Error> {
 }
 
 impl Effect for ScreenDoor {
-    const ABOUT: About = About {
-        citation: "§3, §8.1",
-        does: "Compares with thresholds that lie over tiles of pixels",
-        costs: "hashes: 3 a fragment if hashed",
-        bounds: &[],
-        techniques: &[
-            Technique {
-                name: "screen-door",
-                source: "§3, §8.1",
-                claim: "Samples lie in several pixels; layers and tiles repeat.",
-                shown: ["screen-door", "fixed mask"],
-            },
-            Technique {
-                name: "random-screen-door",
-                source: "§3 (Mulder et al. 1998)",
-                claim: "Even a random mask correlates layers.",
-                shown: ["screen-door", "random mask"],
-            },
-            Technique {
-                name: "hashed-screen-door",
-                source: "§8.1",
-                claim: "Permuted for each tile and layer, layers multiply.",
-                shown: ["screen-door", "hashed masks"],
-            },
-        ],
-    };
+    const ABOUT: About = About::new(
+        "§3, §8.1",
+        "Compares with thresholds that lie over tiles of pixels",
+        "hashes: 3 a fragment if hashed",
+    )
+    .techniques(techniques![
+        "screen-door": "§3, §8.1", "screen-door" / "fixed mask",
+            "Samples lie in several pixels; layers and tiles repeat.";
+        "random-screen-door": "§3 (Mulder et al. 1998)", "screen-door" / "random mask",
+            "Even a random mask correlates layers.";
+        "hashed-screen-door": "§8.1", "screen-door" / "hashed masks",
+            "Permuted for each tile and layer, layers multiply.";
+    ]);
 
     fn rules(&self) -> Rules {
         Rules::of(&[Role::Threshold, Role::Varied])

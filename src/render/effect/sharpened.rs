@@ -2,11 +2,8 @@
 //! spreads it over as many pixels as the texture is magnified; divided by its change from pixel to pixel, alpha rises from
 //! 0 to 1 within one pixel around a cutoff, whatever the distance.
 
-use super::kind::{About, Effect, Role, Rules, Technique};
-use crate::render::draw::cost::{Cost, Per};
-use crate::render::draw::plan::{Phase, Plan, Text, tell};
+use super::kind::{About, Bound, Cost, Effect, Per, Phase, Plan, Role, Rules, Text, techniques, tell};
 use crate::render::draw::work::{Shading, Work};
-use crate::render::scene_file::bound::Bound;
 use serde::Deserialize;
 
 /// Alpha sharpened around a cutoff.
@@ -35,18 +32,16 @@ fn sharpened(alpha: f32, cutoff: f32, width: f32) -> f32 {
 ";
 
 impl Effect for Sharpened {
-    const ABOUT: About = About {
-        citation: "Golus 2017",
-        does: "Sharpens alpha around a cutoff by its change from pixel to pixel, before the samples are tested",
-        costs: "texels: three times as many, those of the pixels on the right and below beside the own",
-        bounds: &[("cutoff", Bound::THRESHOLD)],
-        techniques: &[Technique {
-            name: "sharpened-alpha-to-coverage",
-            source: "Golus 2017",
-            claim: "The edges of an alpha map are one pixel wide at every scale; from afar it loses what the alpha test loses.",
-            shown: ["sharpened-coverage", "sharpened"],
-        }],
-    };
+    const ABOUT: About = About::new(
+        "Golus 2017",
+        "Sharpens alpha around a cutoff by its change from pixel to pixel, before the samples are tested",
+        "texels: three times as many, those of the pixels on the right and below beside the own",
+    )
+    .bounds(&[("cutoff", Bound::THRESHOLD)])
+    .techniques(techniques![
+        "sharpened-alpha-to-coverage": "Golus 2017", "sharpened-coverage" / "sharpened",
+            "The edges of an alpha map are one pixel wide at every scale; from afar it loses what the alpha test loses.";
+    ]);
 
     fn rules(&self) -> Rules {
         Rules::of(&[Role::Test]).needs(Role::Samples)

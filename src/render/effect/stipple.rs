@@ -1,7 +1,6 @@
 //! Holes of one pixel of four, or of three (Ols 2009): [`stipple`](crate::threshold::stage::stipple).
 
-use super::kind::{About, Effect, Role, Rules, Technique, one_of};
-use crate::render::draw::plan::{Plan, Text, tell};
+use super::kind::{About, Effect, Plan, Role, Rules, Text, one_of, techniques, tell};
 use crate::threshold::fixed::FIXED_THRESHOLD;
 use crate::threshold::pipeline::Source;
 use crate::threshold::stage::stipple::Density;
@@ -21,18 +20,15 @@ fn density<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Density, D::Err
 }
 
 impl Effect for Stipple {
-    const ABOUT: About = About {
-        citation: "Ols 2009",
-        does: "Leaves out one pixel of four, or three, wherever a surface is not opaque",
-        costs: "nothing",
-        bounds: &[],
-        techniques: &[Technique {
-            name: "stipple",
-            source: "Ols 2009",
-            claim: "One of four pixels is left out; only one layer of translucency is possible.",
-            shown: ["stipple", "high density"],
-        }],
-    };
+    const ABOUT: About = About::new(
+        "Ols 2009",
+        "Leaves out one pixel of four, or three, wherever a surface is not opaque",
+        "nothing",
+    )
+    .techniques(techniques![
+        "stipple": "Ols 2009", "stipple" / "high density",
+            "One of four pixels is left out; only one layer of translucency is possible.";
+    ]);
 
     fn rules(&self) -> Rules {
         Rules::of(&[Role::Test])

@@ -1,7 +1,6 @@
 //! A threshold drawn anew every time (§4): [`stochastic`](crate::threshold::stochastic).
 
-use super::kind::{About, Effect, Role, Rules, Technique};
-use crate::render::draw::plan::{Plan, Text, tell};
+use super::kind::{About, Effect, Plan, Role, Rules, Text, techniques, tell};
 use crate::threshold::pipeline::Source;
 use serde::Deserialize;
 
@@ -11,18 +10,15 @@ use serde::Deserialize;
 pub struct Stochastic {}
 
 impl Effect for Stochastic {
-    const ABOUT: About = About {
-        citation: "§4",
-        does: "Draws a threshold anew in every fragment and frame",
-        costs: "random numbers: 1 a threshold",
-        bounds: &[],
-        techniques: &[Technique {
-            name: "stochastic",
-            source: "§4",
-            claim: "The expected visibility is alpha; every frame flickers.",
-            shown: ["subpixel-motion", "stochastic"],
-        }],
-    };
+    const ABOUT: About = About::new(
+        "§4",
+        "Draws a threshold anew in every fragment and frame",
+        "random numbers: 1 a threshold",
+    )
+    .techniques(techniques![
+        "stochastic": "§4", "subpixel-motion" / "stochastic",
+            "The expected visibility is alpha; every frame flickers.";
+    ]);
 
     fn rules(&self) -> Rules {
         Rules::of(&[Role::Threshold, Role::Noise, Role::Fresh, Role::Varied])

@@ -1,9 +1,7 @@
 //! Several places of each pixel at which everything is done, and their mean (§3).
 
-use super::kind::{About, Effect, Rules, Technique};
-use crate::render::draw::plan::{Plan, Text, tell};
+use super::kind::{About, Bound, Effect, Plan, Rules, Text, techniques, tell};
 use crate::render::draw::work::Frame;
-use crate::render::scene_file::bound::Bound;
 use core::num::NonZeroU32;
 use serde::Deserialize;
 
@@ -16,18 +14,16 @@ pub struct Supersampling {
 }
 
 impl Effect for Supersampling {
-    const ABOUT: About = About {
-        citation: "§3",
-        does: "Tests at several places of each pixel and averages",
-        costs: "fragments and all that follows, samples^2 times",
-        bounds: &[("samples", Bound::From(1.0, 16.0))],
-        techniques: &[Technique {
-            name: "supersampling",
-            source: "§3",
-            claim: "Enough samples of binary alpha give accurate visibility; the number needed has no bound.",
-            shown: ["blending", "supersampled"],
-        }],
-    };
+    const ABOUT: About = About::new(
+        "§3",
+        "Tests at several places of each pixel and averages",
+        "fragments and all that follows, samples^2 times",
+    )
+    .bounds(&[("samples", Bound::From(1.0, 16.0))])
+    .techniques(techniques![
+        "supersampling": "§3", "blending" / "supersampled",
+            "Enough samples of binary alpha give accurate visibility; the number needed has no bound.";
+    ]);
 
     fn rules(&self) -> Rules {
         Rules::default()

@@ -1,8 +1,6 @@
 //! Strata of frames (§7.2.3, Eq. 6): [`order`](crate::threshold::stage::order).
 
-use super::kind::{About, Effect, Role, Rules, Technique, one_of};
-use crate::render::draw::plan::{Plan, Text, tell};
-use crate::render::scene_file::bound::Bound;
+use super::kind::{About, Bound, Effect, Plan, Role, Rules, Text, one_of, techniques, tell};
 use crate::threshold::stage::order::{FrameStrata, Order};
 use core::num::NonZeroU32;
 use serde::{Deserialize, Deserializer};
@@ -27,38 +25,22 @@ fn order<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Order, D::Error> 
 }
 
 impl Effect for Temporal {
-    const ABOUT: About = About {
-        citation: "§7.2.3, Eq. 6",
-        does: "Divides the range of thresholds among frames",
-        costs: "nothing but an addition",
-        bounds: &[("frames", Bound::CYCLE)],
-        techniques: &[
-            Technique {
-                name: "stratified-frames",
-                source: "§7.2.3, Eq. 6",
-                claim: "One hash gives n frames a stratum each; in ascending order the average flickers.",
-                shown: ["temporal-orders", "ascending, 8"],
-            },
-            Technique {
-                name: "alternating-order",
-                source: "§7.2.3",
-                claim: "Every other threshold is below one half, and the average flickers less.",
-                shown: ["temporal-orders", "alternating, 8"],
-            },
-            Technique {
-                name: "van-der-corput",
-                source: "§7.2.3",
-                claim: "A low-discrepancy order is better still.",
-                shown: ["temporal-orders", "van-der-corput, 8"],
-            },
-            Technique {
-                name: "phase-rotated",
-                source: "not in the paper",
-                claim: "The order is entered at the stratum of the hash, and alternates for every hash value.",
-                shown: ["temporal-orders", "phase-rotated, 8"],
-            },
-        ],
-    };
+    const ABOUT: About = About::new(
+        "§7.2.3, Eq. 6",
+        "Divides the range of thresholds among frames",
+        "nothing but an addition",
+    )
+    .bounds(&[("frames", Bound::CYCLE)])
+    .techniques(techniques![
+        "stratified-frames": "§7.2.3, Eq. 6", "temporal-orders" / "ascending, 8",
+            "One hash gives n frames a stratum each; in ascending order the average flickers.";
+        "alternating-order": "§7.2.3", "temporal-orders" / "alternating, 8",
+            "Every other threshold is below one half, and the average flickers less.";
+        "van-der-corput": "§7.2.3", "temporal-orders" / "van-der-corput, 8",
+            "A low-discrepancy order is better still.";
+        "phase-rotated": "not in the paper", "temporal-orders" / "phase-rotated, 8",
+            "The order is entered at the stratum of the hash, and alternates for every hash value.";
+    ]);
 
     fn rules(&self) -> Rules {
         Rules::default().needs(Role::Noise)

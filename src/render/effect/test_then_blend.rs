@@ -1,9 +1,7 @@
 //! The alpha test, and then what it left out, blended (§3, Moore & Jefferies 2009):
 //! [`test_then_blend`](crate::technique::prior_work::test_then_blend).
 
-use super::kind::{About, Effect, Role, Rules, Technique};
-use crate::render::draw::cost::{Cost, Per};
-use crate::render::draw::plan::{Phase, Plan, Text, tell};
+use super::kind::{About, Cost, Effect, Per, Phase, Plan, Role, Rules, Text, techniques, tell};
 use crate::technique::prior_work::test_then_blend::test_then_blend;
 use crate::threshold::fixed::FIXED_THRESHOLD;
 use crate::threshold::pipeline::Source;
@@ -15,18 +13,15 @@ use serde::Deserialize;
 pub struct TestThenBlend {}
 
 impl Effect for TestThenBlend {
-    const ABOUT: About = About {
-        citation: "§3 (Moore & Jefferies 2009)",
-        does: "Draws what fails the test once more, blended",
-        costs: "passes, fragments, texels: twice; blends: 1 a fragment",
-        bounds: &[],
-        techniques: &[Technique {
-            name: "test-then-blend",
-            source: "§3 (Moore & Jefferies 2009)",
-            claim: "Transparent fragments never hide opaque ones; everything is drawn twice.",
-            shown: ["blending", "test, then blend"],
-        }],
-    };
+    const ABOUT: About = About::new(
+        "§3 (Moore & Jefferies 2009)",
+        "Draws what fails the test once more, blended",
+        "passes, fragments, texels: twice; blends: 1 a fragment",
+    )
+    .techniques(techniques![
+        "test-then-blend": "§3 (Moore & Jefferies 2009)", "blending" / "test, then blend",
+            "Transparent fragments never hide opaque ones; everything is drawn twice.";
+    ]);
 
     fn rules(&self) -> Rules {
         Rules::of(&[Role::Test, Role::Pixels, Role::SecondPass])
