@@ -60,6 +60,7 @@ quantities! {
 
 /// What a price is for one of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Per {
     /// A frame.
     Frame,

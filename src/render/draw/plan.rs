@@ -32,6 +32,7 @@ pub struct Told {
 
 /// What the text of a shader has of a stage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Text {
     /// Nothing of its own: a stage outside of shaders, or one that the pipeline of thresholds has.
     None,
@@ -43,6 +44,7 @@ pub enum Text {
 
 /// Why a plan has no shader text.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum NoShader {
     /// No shader computes what a stage does.
     #[error("{says}: {reason}")]

@@ -13,6 +13,7 @@ use glam::{DVec2, Vec2};
 /// What effects change before anything is shaded: which fragments there are, where they read their textures, and which
 /// threshold they are compared with. The default is that of the plain alpha test.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Setup {
     /// Places along each side of a pixel at which fragments are made, at least 1.
     pub places: u32,

@@ -5,7 +5,7 @@ use super::bound::Bound::{self, From, UpTo};
 use super::bound::{LARGEST, LARGEST_SIDE};
 use super::diagnostic::Diagnostic;
 use super::schema::{SceneFile, Takes};
-use super::spans::{Number, Places, Span};
+use super::spans::{Number, Span, Spans};
 use crate::render::effect::ALL;
 use crate::render::effect::plan::plan;
 
@@ -77,7 +77,7 @@ const MOST_PIXELS: u64 = 1 << 26;
 const MOST_KEPT: u64 = 1 << 30;
 
 /// Finds a number beyond the bound of its key.
-pub(in crate::render) fn numbers(places: &Places<'_>) -> Result<(), (Option<Span>, String)> {
+pub(in crate::render) fn numbers(spans: &Spans<'_>) -> Result<(), (Option<Span>, String)> {
     let wrong = |&Number { ref key, value, .. }: &Number<'_>| {
         let of_effect = || {
             let (table, key) = key.strip_prefix("effects.")?.split_once('.')?;
@@ -88,7 +88,7 @@ pub(in crate::render) fn numbers(places: &Places<'_>) -> Result<(), (Option<Span
         let bound = bound.map_or(Bound::ANY, |&(_, bound)| bound);
         (!bound.holds(value)).then_some(bound)
     };
-    let found = places.numbers();
+    let found = spans.numbers();
     match found.iter().find_map(|number| Some((number, wrong(number)?))) {
         None => Ok(()),
         Some((Number { key, span, text, .. }, bound)) => {

@@ -3,7 +3,7 @@
 use super::diagnostic::{Diagnostic, likely, place, plain, suggest};
 use super::limits;
 use super::schema::{SceneFile, Takes};
-use super::spans::{Places, Span};
+use super::spans::{Span, Spans};
 use crate::render::effect::plan::{check as check_effects, plan};
 use crate::render::measure::expect;
 
@@ -33,18 +33,18 @@ pub fn read(text: &str, file: &str) -> Result<SceneFile, FileError> {
         FileError { file: file.to_owned(), line, column, message }
     };
     let broken = |error: &toml::de::Error| error.message().trim().replace('\n', "; ");
-    let places = Places::new(text).map_err(|error| at(error.span(), broken(&error)))?;
-    limits::numbers(&places).map_err(|(span, message)| at(span, message))?;
+    let spans = Spans::new(text).map_err(|error| at(error.span(), broken(&error)))?;
+    limits::numbers(&spans).map_err(|(span, message)| at(span, message))?;
     let scene: SceneFile = toml::from_str(text).map_err(|error| {
         let message = broken(&error);
-        let around = error.span().and_then(|span| places.around(span.start));
+        let around = error.span().and_then(|span| spans.around(span.start));
         match (suggest(&message), around) {
             (Some(message), _) => at(error.span(), message),
             (None, Some((key, span))) => at(Some(span), plain(&key, &message)),
             (None, None) => at(error.span(), plain("", &message)),
         }
     })?;
-    let told = |wrong: Diagnostic| at(places.key(&wrong.key), wrong.message);
+    let told = |wrong: Diagnostic| at(spans.key(&wrong.key), wrong.message);
     check(&scene).and_then(|()| limits::totals(&scene)).map_err(told)?;
     Ok(scene)
 }
@@ -61,7 +61,7 @@ pub fn check_changed(scene: &SceneFile) -> Result<(), String> {
 /// Makes an error of what stands behind a key: `key` is its path with the number of each table in a list, from 0.
 #[must_use]
 pub fn error_at(text: &str, file: &str, key: &str, message: String) -> FileError {
-    let span = Places::new(text).ok().and_then(|places| places.key(key));
+    let span = Spans::new(text).ok().and_then(|spans| spans.key(key));
     let (line, column) = place(text, span.map_or(0, |span| span.start));
     FileError { file: file.to_owned(), line, column, message }
 }

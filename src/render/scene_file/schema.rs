@@ -44,7 +44,7 @@ pub struct SceneFile {
     #[serde(default)]
     pub target: Target,
     /// Sorted blending with supersampling beside it, and the error to it.
-    pub truth: Option<Truth>,
+    pub truth: Option<ReferenceImage>,
     /// The same from further away.
     pub distance: Option<Distance>,
     /// Correlation of the first two layers.
@@ -129,10 +129,10 @@ impl Default for Target {
     }
 }
 
-/// Ground truth.
+/// The reference image: sorted blending with supersampling.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Truth {
+pub struct ReferenceImage {
     /// Samples along each side of a pixel.
     pub samples: NonZeroU32,
 }
