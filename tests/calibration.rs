@@ -9,11 +9,10 @@
 mod budget;
 
 use budget::budget;
-use hashed_alpha::check::claims::{self, Claim, Conclusion};
 use hashed_alpha::check::specimen::ideal;
 use hashed_alpha::check::subject::Precision;
 use hashed_alpha::check::tolerance::{FAMILY_LEVEL, SUSPICION};
-use hashed_alpha::check::{Budget, Draw, Subject, Verdict, run_claims};
+use hashed_alpha::check::{Budget, Claim, Conclusion, Draw, Subject, Verdict, claims, run_claims};
 use hashed_alpha::stats::sequential::{self, Finding};
 use hashed_alpha::stats::{binomial, ecdf};
 use hashed_alpha::threshold::robust::Join;

@@ -1,6 +1,6 @@
 //! The paper's claims about its own listings, one named trial each.
 //!
-//! A claim that a listing is known to fail stands in `check::findings`; its trial demands that it is still rejected.
+//! A claim that a listing is known to fail stands in `check::known`; its trial demands that it is still rejected.
 
 use hashed_alpha::check::{Draw, Outcome, Subject, Suite, Verdict, claims, results::Results, run_claims};
 use libtest_mimic::{Arguments, Trial};

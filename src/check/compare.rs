@@ -4,9 +4,11 @@
 //! what rests on the sine of large arguments shares no digit between two machines, and all that can be the same is the
 //! law.
 
-use super::sample::{general_scenes, independent};
-use super::tolerance::{COMPARED_SAMPLES, DRAWS_A_PLACE, EQUAL_WITHIN, FAMILY_LEVEL, LERP_GROUPS, PAIR_BINS};
-use super::{Draw, Subject};
+use crate::check::input::sample::{general_scenes, independent};
+use crate::check::tolerance::{
+    COMPARED_SAMPLES, DRAWS_A_PLACE, EQUAL_WITHIN, FAMILY_LEVEL, LERP_GROUPS, PAIR_BINS,
+};
+use crate::check::{Draw, Subject};
 use crate::scene::Fragment;
 use crate::stats::histogram::bin_of;
 use crate::stats::{StatsError, chi_square, two_sample};

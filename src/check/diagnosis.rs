@@ -111,18 +111,18 @@ pub fn diagnoses(outcomes: &[Outcome]) -> Vec<Diagnosis<'_>> {
 }
 
 #[cfg(test)]
-pub(super) mod tests {
+pub(crate) mod tests {
     use super::super::outcome::tests::outcome;
     use super::super::subject::Precision;
-    use super::super::{Verdict, claims, findings};
+    use super::super::{Claim, Verdict, claims, known};
     use super::*;
     use crate::threshold::two_scale::Variant;
 
     /// The outcomes of a specimen as the matrix has them.
-    pub(in crate::check) fn outcomes_of(specimen: &str) -> Vec<Outcome> {
+    pub(crate) fn outcomes_of(specimen: &str) -> Vec<Outcome> {
         let matrix = KillMatrix::committed();
         let row = matrix.row(specimen).expect("a row of that name");
-        let answer = |claim: &claims::Claim| {
+        let answer = |claim: &Claim| {
             let rejected = row.claims.contains(&claim.id) != (claim.expected == Verdict::Rejected);
             let verdict = if rejected { Verdict::Rejected } else { Verdict::Consistent };
             Outcome { expected: claim.expected, ..outcome(claim.id, verdict) }
@@ -176,8 +176,7 @@ pub(super) mod tests {
         let outcomes = |specimen: &str| {
             let mut outcomes = outcomes_of(specimen);
             for outcome in &mut outcomes {
-                outcome.listing_fails =
-                    findings::of_listing(outcome.check, Variant::Isotropic, Precision::F32);
+                outcome.listing_fails = known::of_listing(outcome.check, Variant::Isotropic, Precision::F32);
                 if outcome.listing_fails.is_some() {
                     outcome.verdict = Verdict::Rejected;
                 }

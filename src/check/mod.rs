@@ -2,6 +2,7 @@
 //!
 //! What never lives here: statistics themselves ([`crate::stats`]), pictures ([`crate::report`]), printing.
 
+pub mod claim;
 pub mod claims;
 pub mod compare;
 pub mod coordinates;
@@ -9,26 +10,27 @@ pub mod diagnosis;
 pub mod draw;
 pub mod evidence;
 pub mod expectation;
-pub mod findings;
-pub mod kinship;
+pub mod input;
+pub mod judge;
+pub mod known;
 pub mod outcome;
 pub mod parity;
-pub mod rescaled;
+pub mod predict;
 pub mod results;
-pub mod sample;
+pub mod run;
 #[cfg(feature = "shader")]
 pub mod shaders;
-pub mod shared_cell;
-pub mod sheet;
 pub mod specimen;
 pub mod subject;
-pub mod suite;
 pub mod tolerance;
+pub mod trial;
 
+pub use claim::{Claim, Promise};
 pub use compare::{Agreement, Comparison, compare};
 pub use draw::{Budget, Draw};
 pub use evidence::Evidence;
 pub use outcome::{Outcome, Verdict};
-pub use results::Results;
+pub use results::{Results, Suite};
+pub use run::{run, run_claims};
 pub use subject::Subject;
-pub use suite::{Suite, run, run_claims};
+pub use trial::{Attempt, Conclusion, Trial};

@@ -1,8 +1,33 @@
 //! The answers of one run about one subject, as somebody's own test suite wants them.
 
 use super::tolerance::GUESSES;
-use super::{Outcome, Suite, Verdict, diagnosis};
+use super::{Outcome, Verdict, diagnosis};
 use core::fmt;
+
+/// What a subject is measured by.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Suite {
+    /// Every claim, the hard cases among them: what a threshold should do.
+    #[default]
+    All,
+    /// As good as the paper: a rejection counts unless the paper's own listing is known to fail there too
+    /// ([`known`](super::known)).
+    Paper,
+}
+
+impl Suite {
+    /// Both suites.
+    pub const ALL: [Self; 2] = [Self::All, Self::Paper];
+
+    /// The word by which a user asks for it.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::All => "all",
+            Self::Paper => "paper",
+        }
+    }
+}
 
 /// What every claim said about a subject.
 #[derive(Clone, Debug, PartialEq)]

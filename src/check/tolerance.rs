@@ -235,11 +235,11 @@ pub const RESONANCE_PAIRS: usize = 1 << 16;
 
 // Noise as a whole: its size, its spectrum, the variance of coverage.
 
-/// Derivatives of a sheet times its hash scale lie in the octave from this one on: coarse cells of 2^-5 units, a
+/// Derivatives of a patch times its hash scale lie in the octave from this one on: coarse cells of 2^-5 units, a
 /// thousandth of a cell being five roundings of an `f32` position within [`WIDE`] times [`PLACEMENT`].
-pub const SHEET_OCTAVES: f64 = -6.0;
+pub const PATCH_OCTAVES: f64 = -6.0;
 
-/// No object axis of a sheet has less than this share of the largest derivative: twice the share to which the robust
+/// No object axis of a patch has less than this share of the largest derivative: twice the share to which the robust
 /// threshold raises it.
 pub const LEAST_AXIS_SHARE: f64 = 1.0 / 16.0;
 
@@ -250,7 +250,7 @@ pub const TILT_STRETCH: f64 = 4.0;
 /// would not.
 pub const SCAN_LINES: usize = 1 << 10;
 
-/// Steps of a scan line, an eighth of the claimed size each: four times that size, so that lines of any sheet change some
+/// Steps of a scan line, an eighth of the claimed size each: four times that size, so that lines of any patch change some
 /// cells and the count of changes is not all chance.
 pub const SCAN_STEPS: u32 = 32;
 
@@ -267,8 +267,8 @@ pub const COVERAGE_ALPHAS: [f64; 4] = [0.1, 0.3, 0.5, 0.9];
 /// Blocks whose coverage is compared with each other: a variance is known to 3 % on either side of lerp factor 1/2.
 pub const COVERAGE_BLOCKS: usize = 1 << 12;
 
-/// Blocks that share a sheet, each at a place of its own.
-pub const BLOCKS_A_SHEET: usize = 16;
+/// Blocks that share a patch, each at a place of its own.
+pub const BLOCKS_A_PATCH: usize = 16;
 
 /// Places along a side of a block, half the claimed size of the noise apart: a block holds some thirty cells, so that its
 /// mean is near normal.
@@ -283,12 +283,12 @@ pub const EQUAL_WITHIN: f64 = 1.0e-6;
 /// Samples of each of two subjects whose laws are compared: 256 expected in every cell of the table.
 pub const COMPARED_SAMPLES: usize = 1 << 16;
 
-/// Images of each kind of sheet on each side of lerp factor 1/2: enough for a usable tail of Student's law, and to see a
+/// Images of each kind of patch on each side of lerp factor 1/2: enough for a usable tail of Student's law, and to see a
 /// correlation that is off by a tenth, or half the power of the lowest frequencies missing.
 pub const SPECTRUM_IMAGES: usize = 64;
 
-/// Images that share a sheet, each at a place of its own: the expected spectrum costs more than an image.
-pub const IMAGES_A_SHEET: usize = 4;
+/// Images that share a patch, each at a place of its own: the expected spectrum costs more than an image.
+pub const IMAGES_A_PATCH: usize = 4;
 
 /// Pixels along a side of an image, one claimed size of the noise apart: 256 cells or more.
 pub const SPECTRUM_SIDE: usize = 32;

@@ -1,9 +1,10 @@
 //! Values that come up more often than their share.
 
-use super::cells::at_scale;
-use super::uniform::reject_outsiders;
-use super::{Attempt, Claim, Conclusion, Promise, Trial};
+use crate::check::claim::{Claim, Promise};
+use crate::check::input::cell::at_scale;
+use crate::check::judge::counts::detectable_factor;
 use crate::check::tolerance::{ATOM_BLOCK, ATOM_THRESHOLD, END, END_LAYERS, POWER, SINGLE_LEVEL, SPREAD};
+use crate::check::trial::{Attempt, Conclusion, Trial, reject_outsiders};
 use crate::check::{Draw, Evidence, Subject, Verdict};
 use crate::stats::{binomial, power, seed};
 use crate::threshold::footprint::Footprint;
@@ -107,15 +108,4 @@ fn ends(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
         ),
         evidence: Evidence::None,
     })
-}
-
-/// The smallest excess of a Poisson count of this mean that would be seen, as a factor.
-pub(super) fn detectable_factor(mean: f64) -> f64 {
-    let critical =
-        (0..).find(|&count| binomial::poisson_upper_p(count, mean) < SINGLE_LEVEL).unwrap_or(u64::MAX);
-    let unseen = |factor: f64| binomial::poisson_lower_p(critical - 1, factor * mean);
-    (4..)
-        .map(|quarter| f64::from(quarter) / 4.0)
-        .find(|&factor| unseen(factor) <= 1.0 - POWER)
-        .unwrap_or(f64::INFINITY)
 }

@@ -1,19 +1,19 @@
 //! Cells in odd places: around the origin, far away, and in the mirror.
 
-use super::uniform::reject_outsiders;
-use super::{Attempt, Claim, Conclusion, Promise, Trial};
+use crate::check::claim::{Claim, Promise};
 use crate::check::evidence::NamedHistogram;
-use crate::check::sample::UsedCells;
+use crate::check::input::cell::{at_scale, draw_cell};
+use crate::check::input::sample::UsedCells;
 use crate::check::tolerance::{
-    BINS, DRAWS_A_SAMPLE, FAMILY_LEVEL, MIRROR_PAIRS, ORIGIN_OCTAVES, POWER, SINGLE_LEVEL, SPREAD,
-    WINDOW_OFFSETS, WINDOW_SAMPLES, WINDOW_SIZE,
+    BINS, DRAWS_A_SAMPLE, FAMILY_LEVEL, MIRROR_PAIRS, ORIGIN_OCTAVES, POWER, SINGLE_LEVEL, WINDOW_OFFSETS,
+    WINDOW_SAMPLES, WINDOW_SIZE,
 };
+use crate::check::trial::{Attempt, Conclusion, Trial, reject_outsiders};
 use crate::check::{Draw, Evidence, Subject, Verdict};
 use crate::stats::chi_square::{self, ChiSquare};
 use crate::stats::histogram::Histogram;
 use crate::stats::{correlation, ecdf, power, seed};
 use crate::threshold::footprint::Footprint;
-use crate::threshold::two_scale::Variant;
 use glam::{DVec3, dvec3};
 use rand::rngs::Xoshiro256PlusPlus;
 
@@ -46,34 +46,6 @@ pub const MIRROR: Claim = Claim {
     promise: Some(Promise::Root(0.1)),
     run: mirror,
 };
-
-/// What a scale is divided by: Listing 2 counts the diagonal of a cell.
-pub(super) fn numerator(variant: Variant) -> f64 {
-    if variant == Variant::Anisotropic { 0.707 } else { 1.0 }
-}
-
-/// A footprint with given logarithms to base two of the cells per object unit; the first counts where a variant has
-/// only one scale.
-pub(super) fn at_scale(
-    variant: Variant,
-    hash_scale: f64,
-    position: DVec3,
-    log_scale: [f64; 3],
-) -> Footprint<f64> {
-    let derivative = log_scale.map(|log| numerator(variant) * libm::exp2(-log) / hash_scale);
-    let dpdx = if variant == Variant::Anisotropic {
-        DVec3::from_array(derivative)
-    } else {
-        dvec3(derivative[0], 0.0, 0.0)
-    };
-    Footprint { position, dpdx, dpdy: dpdx * 0.5 }
-}
-
-/// Draws a cell within [`SPREAD`] of the origin along every axis.
-pub(super) fn draw_cell(rng: &mut Xoshiro256PlusPlus) -> DVec3 {
-    let mut index = || ((2.0 * seed::uniform01(rng) - 1.0) * SPREAD).floor();
-    dvec3(index(), index(), index())
-}
 
 /// Draws a place within an octave along each axis.
 fn fractions(rng: &mut Xoshiro256PlusPlus) -> [f64; 3] {

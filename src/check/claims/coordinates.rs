@@ -1,10 +1,11 @@
 //! The threshold belongs to a point of the object, wherever that point is and whoever looks.
 
-use super::determinism::{differing, trial};
-use super::{Attempt, Claim, Promise, Trial};
-use crate::check::coordinates::Motion;
-use crate::check::sample::{general_scenes, placed, placement, sighting};
+use crate::check::claim::{Claim, Promise};
+use crate::check::input::motion::Motion;
+use crate::check::input::sample::{general_scenes, placed, placement, sighting};
+use crate::check::judge::equality::{differing, equality};
 use crate::check::tolerance::EXACT_POINTS;
+use crate::check::trial::{Attempt, Trial};
 use crate::check::{Draw, Subject, Verdict};
 use crate::scene::Fragment;
 
@@ -37,5 +38,5 @@ fn object(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     }
     let (first, second) = (subject.thresholds(&before), subject.thresholds(&after));
     let (different, told) = differing(&before, &first, &[second]);
-    Ok(trial(before.len(), different, told, "after camera and object have moved"))
+    Ok(equality(before.len(), different, told, "after camera and object have moved"))
 }

@@ -3,17 +3,18 @@
 //! A pooled test lets the errors of two surfaces cancel, and a mean says nothing of clumps: neighbouring pixels share
 //! cells, so the coverage of a block of pixels varies more than that of as many coins, by the design effect.
 
-use super::uniform::reject_outsiders;
-use super::{Attempt, Claim, Conclusion, Promise, Trial, stability};
+use crate::check::claim::{Claim, Promise};
 use crate::check::evidence::ComparedShare;
-use crate::check::kinship::Kinship;
-use crate::check::sample::{general_scenes, independent};
-use crate::check::sheet::Sheet;
+use crate::check::input::patch::Patch;
+use crate::check::input::sample::{general_scenes, independent};
+use crate::check::judge::shares::detectable_error;
+use crate::check::predict::pair_law::PairLaw;
 use crate::check::subject::Nominal;
 use crate::check::tolerance::{
-    BLOCK_SIDE, BLOCKS_A_SHEET, COVERAGE_ALPHAS, COVERAGE_BLOCKS, COVERAGE_SAMPLES, POWER, SINGLE_LEVEL,
+    BLOCK_SIDE, BLOCKS_A_PATCH, COVERAGE_ALPHAS, COVERAGE_BLOCKS, COVERAGE_SAMPLES, POWER, SINGLE_LEVEL,
     TILT_STRETCH, VARIANCE_ALPHAS,
 };
+use crate::check::trial::{Attempt, Conclusion, Trial, reject_outsiders};
 use crate::check::{Draw, Evidence, Subject, Verdict};
 use crate::scene::{Fragment, Scene};
 use crate::stats::variance::Variance;
@@ -94,7 +95,7 @@ fn mean(claim: &Claim, scenes: Vec<Scene>, subject: &Subject<'_>, draw: &Draw) -
         n,
         effect: points.iter().map(|point| (point.measured - point.predicted).abs()).reduce(f64::max),
         effect_name: "error in coverage",
-        detectable: stability::detectable(&points),
+        detectable: detectable_error(&points),
         seen: format!("{}: {:.2} % are kept at alpha {}", worst.series, 100.0 * worst.measured, worst.x),
         evidence: Evidence::Quantity { abscissa: "alpha", ordinate: "share kept", points },
     })
@@ -111,19 +112,19 @@ fn variance(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     // What is wrong with the weights of two octaves has another sign on the other side of 1/2.
     let mut groups = ["lerp factor below 1/2", "lerp factor above 1/2"]
         .map(|name| Blocks { name, scores: Default::default() });
-    let sheets = draw.samples(COVERAGE_BLOCKS).div_ceil(BLOCKS_A_SHEET);
-    for index in 0..sheets {
+    let patches = draw.samples(COVERAGE_BLOCKS).div_ceil(BLOCKS_A_PATCH);
+    for index in 0..patches {
         let stretch = [1.0, TILT_STRETCH, 1.0 / TILT_STRETCH][index % 3];
-        let sheet = Sheet::draw(subject, stretch, &mut rng);
+        let patch = Patch::draw(subject, stretch, &mut rng);
         let spacing = 0.5 * subject.hash_scale;
-        let blocks: Vec<Fragment> = (0..BLOCKS_A_SHEET)
-            .flat_map(|_| sheet.image(subject, [BLOCK_SIDE; 2], spacing, &mut rng))
+        let blocks: Vec<Fragment> = (0..BLOCKS_A_PATCH)
+            .flat_map(|_| patch.image(subject, [BLOCK_SIDE; 2], spacing, &mut rng))
             .collect();
         let values = subject.thresholds(&blocks);
         reject_outsiders(&blocks, &values)?;
         let nominal = subject.nominal(&blocks[0].footprint);
         let above = nominal.lerp_factor >= 0.5;
-        let predicted = predicted_variances(subject, &sheet, &nominal, spacing);
+        let predicted = predicted_variances(subject, &patch, &nominal, spacing);
         for ((alpha, predicted), scores) in
             VARIANCE_ALPHAS.into_iter().zip(predicted).zip(&mut groups[usize::from(above)].scores)
         {
@@ -139,7 +140,7 @@ fn variance(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
 /// The variance of the coverage of a block at each alpha: that of independent fragments, times the design effect.
 fn predicted_variances(
     subject: &Subject<'_>,
-    sheet: &Sheet,
+    patch: &Patch,
     nominal: &Nominal,
     spacing: f64,
 ) -> [f64; VARIANCE_ALPHAS.len()] {
@@ -147,11 +148,11 @@ fn predicted_variances(
     let mut sums = [0.0; VARIANCE_ALPHAS.len()];
     for y in 1 - side..side {
         for x in 1 - side..side {
-            let lag = sheet.lag(DVec2::new(f64::from(x), f64::from(y)) * spacing);
-            let kinship = Kinship::new(subject, nominal, lag);
+            let lag = patch.lag(DVec2::new(f64::from(x), f64::from(y)) * spacing);
+            let pair = PairLaw::new(subject, nominal, lag);
             let pairs = f64::from((side - x.abs()) * (side - y.abs()));
             for (sum, alpha) in sums.iter_mut().zip(VARIANCE_ALPHAS) {
-                *sum += pairs * kinship.visibility_correlation(alpha);
+                *sum += pairs * pair.visibility_correlation(alpha);
             }
         }
     }

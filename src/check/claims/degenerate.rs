@@ -1,9 +1,9 @@
 //! Inputs at the edge of the number format: derivatives and positions that are zero, tiny, huge, infinite or NaN, and
 //! surfaces so far from the origin that neighbouring pixels have the same position.
 
-use super::range::describe;
-use super::{Attempt, Claim, Conclusion, Promise, Trial, detectable_share};
+use crate::check::claim::{Claim, Promise};
 use crate::check::tolerance::{FAR_COORDINATES, FAR_FOOTPRINTS, FAR_QUADS};
+use crate::check::trial::{Attempt, Conclusion, Trial, describe, detectable_share};
 use crate::check::{Draw, Evidence, Subject, Verdict};
 use crate::stats::seed::uniform01;
 use crate::threshold::footprint::Footprint;

@@ -1,11 +1,13 @@
 //! What follows from the listings without any chance: where the threshold changes, and by which formula.
 
-use super::{Attempt, Claim, Conclusion, Promise, Trial, detectable_share};
-use crate::check::sample::{Sighting, general_scenes, independent, placement, sighting};
+use crate::check::claim::{Claim, Promise};
+use crate::check::input::sample::{Sighting, general_scenes, independent, placement, sighting};
+use crate::check::subject::Precision;
 use crate::check::tolerance::{
     CDF_ROUNDING, CELL_MOTION, CELL_PAIRS, CELL_WEIGHTS, DRAWS_A_PLACE, FORMULA_SAMPLES, MEETING,
 };
-use crate::check::{Draw, Evidence, Subject, Verdict, subject::Precision};
+use crate::check::trial::{Attempt, Conclusion, Trial, detectable_share};
+use crate::check::{Draw, Evidence, Subject, Verdict};
 use crate::scene::Fragment;
 use crate::stats::binomial;
 use crate::stats::seed::uniform01;

@@ -4,19 +4,19 @@
 //! fewer than by a hard one, by a continuous change as many as the join has to have. E |d tau| is the integral of the
 //! flips over alpha, and so is no claim of its own.
 
-use super::continuity::{tangents, tilted, turned, zoomed};
-use super::stability::detectable;
-use super::uniform::reject_outsiders;
-use super::{Attempt, Claim, Conclusion, Promise, Trial};
-use crate::check::coordinates::Motion;
+use crate::check::claim::{Claim, Promise};
 use crate::check::evidence::ComparedShare;
-use crate::check::kinship::Kinship;
-use crate::check::rescaled::flip_between;
-use crate::check::sample::{general_scenes, placed, placement, sighting};
+use crate::check::input::motion::Motion;
+use crate::check::input::sample::{general_scenes, placed, placement, sighting};
+use crate::check::input::view::{tangents, tilted, turned, zoomed};
+use crate::check::judge::shares::detectable_error;
+use crate::check::predict::flips::flip_between;
+use crate::check::predict::pair_law::PairLaw;
 use crate::check::tolerance::{
     ALPHAS, FINE_VIEWS, FLIP_POINTS, FLIP_SAMPLES, FLIP_SHIFTS, FLIP_STEPS, POWER, SINGLE_LEVEL,
     SKINNED_FRAMES, TILT_OCTAVES, WIDE,
 };
+use crate::check::trial::{Attempt, Conclusion, Trial, reject_outsiders};
 use crate::check::{Draw, Evidence, Subject, Verdict};
 use crate::scene::Fragment;
 use crate::stats::{normal, poisson_binomial, power};
@@ -99,10 +99,10 @@ fn translation(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
                     let here = sighting(&scene, &mut rng).placed(place, subject.precision);
                     let footprint = here.fragment.footprint;
                     let motion = if along_x { footprint.dpdx } else { footprint.dpdy } * shift;
-                    let kinship = Kinship::new(subject, &subject.nominal(&footprint), motion);
+                    let pair = PairLaw::new(subject, &subject.nominal(&footprint), motion);
                     for (alpha, [mean, variance]) in ALPHAS.into_iter().zip(&mut expected) {
                         let probability =
-                            2.0 * alpha * (1.0 - alpha) * (1.0 - kinship.visibility_correlation(alpha));
+                            2.0 * alpha * (1.0 - alpha) * (1.0 - pair.visibility_correlation(alpha));
                         *mean += probability;
                         *variance += probability * (1.0 - probability);
                     }
@@ -147,7 +147,7 @@ fn translation(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
         n,
         effect: Some(effect),
         effect_name: "error in the share that flips",
-        detectable: detectable(&points),
+        detectable: detectable_error(&points),
         seen,
         evidence: Evidence::Quantity { abscissa: "alpha", ordinate: "share that flips", points },
     })

@@ -1,15 +1,15 @@
 //! Thresholds over the frames of one point, and over the frames of one pixel.
 
-use super::determinism::{differing, fragments, trial};
-use super::stability::detectable;
-use super::uniform::reject_outsiders;
-use super::{Attempt, Claim, Conclusion, Promise, Trial, detectable_share};
+use crate::check::claim::{Claim, Promise};
 use crate::check::evidence::ComparedShare;
-use crate::check::kinship::Kinship;
-use crate::check::sample::{general_scenes, placement, sighting};
+use crate::check::input::sample::{fragments_everywhere, general_scenes, placement, sighting};
+use crate::check::judge::equality::{differing, equality};
+use crate::check::judge::shares::detectable_error;
+use crate::check::predict::pair_law::PairLaw;
 use crate::check::tolerance::{
     ALPHAS, DRIFT, FRAME_LAGS, FRAME_POINTS, FRAMES, NEWEST, STRATUM_ROUNDING, WIDE,
 };
+use crate::check::trial::{Attempt, Conclusion, Trial, detectable_share, reject_outsiders};
 use crate::check::{Draw, Evidence, Subject, Verdict};
 use crate::scene::Fragment;
 use crate::stats::normal;
@@ -71,12 +71,12 @@ fn in_frame(subject: &Subject<'_>, points: &[Fragment], frame: u32) -> Vec<f64> 
 }
 
 fn unchanging(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
-    let points = fragments(subject, draw, STATIC.id);
+    let points = fragments_everywhere(subject, draw, STATIC.id);
     // Whole periods from the first frame, as far as frames can be counted.
     let periods = FRAMES.map(|frame| frame.min(u32::MAX / subject.frames) * subject.frames);
     let [first, others @ ..] = periods.map(|frame| in_frame(subject, &points, frame));
     let (different, told) = differing(&points, &first, &others);
-    Ok(trial(points.len(), different, told, "in another frame"))
+    Ok(equality(points.len(), different, told, "in another frame"))
 }
 
 /// Thresholds of points in general position over one period from a frame on: frame by frame.
@@ -192,7 +192,7 @@ fn worst_mean(means: &[Mean], n: usize, effect_name: &'static str, axes: [&'stat
         n: n as u64,
         effect: Some(effect),
         effect_name,
-        detectable: detectable(&points),
+        detectable: detectable_error(&points),
         seen: format!(
             "{} at {}: {:.5}, {:.5} is predicted",
             worst.name, worst.x, worst.measured, worst.predicted
@@ -212,8 +212,8 @@ fn serial(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
                 let place = placement(&mut rng) * WIDE;
                 let here = sighting(&scene, &mut rng).placed(place, subject.precision);
                 let motion = here.fragment.footprint.dpdx * (f64::from(lag) * DRIFT);
-                let kinship = Kinship::new(subject, &subject.nominal(&here.fragment.footprint), motion);
-                expected.push(kinship.correlation());
+                let pair = PairLaw::new(subject, &subject.nominal(&here.fragment.footprint), motion);
+                expected.push(pair.correlation());
                 // The same pixel, where another point of the surface has come.
                 let there = here.moved(motion, subject.precision).fragment;
                 before.push(here.fragment);

@@ -1,15 +1,15 @@
 //! The hash of single cells, seen through thresholds at whole octaves, where the other octave has no weight.
 
-use super::atoms::detectable_factor;
-use super::cells::{at_scale, draw_cell};
-use super::uniform::reject_outsiders;
-use super::{Attempt, Claim, Conclusion, Promise, Trial};
+use crate::check::claim::{Claim, Promise};
 use crate::check::evidence::NamedHistogram;
-use crate::check::sample::UsedCells;
+use crate::check::input::cell::{at_scale, draw_cell};
+use crate::check::input::sample::UsedCells;
+use crate::check::judge::counts::detectable_factor;
 use crate::check::tolerance::{
     BINS, DIFFERENCE_PAIRS, DRAWS_A_SAMPLE, FAR_PAIRS, MEETING_VALUES, PAIR_BINS, POWER, RESONANCE_PAIRS,
     RESONANCES, SINGLE_LEVEL, VALUE_CELLS,
 };
+use crate::check::trial::{Attempt, Conclusion, Trial, reject_outsiders};
 use crate::check::{Draw, Evidence, Subject, Verdict};
 use crate::stats::histogram::Histogram;
 use crate::stats::{binomial, chi_square, correlation, power};

@@ -1,9 +1,9 @@
 //! Thresholds of different cells have nothing to do with each other.
 
-use super::uniform::reject_outsiders;
-use super::{Attempt, Claim, Promise, Trial};
-use crate::check::sample::{Sighting, UsedCells, general_scenes, placement, sighting};
+use crate::check::claim::{Claim, Promise};
+use crate::check::input::sample::{Sighting, UsedCells, general_scenes, placement, sighting};
 use crate::check::tolerance::{DRAWS_A_PLACE, DRAWS_A_SAMPLE, FAR_PAIRS, NEIGHBOUR_PAIRS, PAIR_BINS};
+use crate::check::trial::{Attempt, Trial, reject_outsiders};
 use crate::check::{Draw, Evidence, Subject, Verdict};
 use crate::scene::Fragment;
 use crate::stats::{chi_square, correlation};

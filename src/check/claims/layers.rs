@@ -1,11 +1,11 @@
 //! Transparent layers one behind the other: each lets its own share through, whatever the others do.
 
-use super::uniform::reject_outsiders;
-use super::{Attempt, Claim, Conclusion, Promise, Trial};
-use crate::check::sample::{UsedCells, general_scenes, placed, placement, sighting};
+use crate::check::claim::{Claim, Promise};
+use crate::check::input::sample::{UsedCells, general_scenes, placed, placement, sighting};
 use crate::check::tolerance::{
     DRAWS_A_SAMPLE, LAYER_PAIRS, LAYER_SAMPLES, LEAST_LAYER_DISTANCE, PAIR_BINS, PLACEMENT,
 };
+use crate::check::trial::{Attempt, Conclusion, Trial, reject_outsiders};
 use crate::check::{Draw, Evidence, Subject, Verdict};
 use crate::scene::{Fragment, Rectangle, Scene};
 use crate::stats::chi_square::{self, ChiSquare};

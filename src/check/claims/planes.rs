@@ -7,12 +7,13 @@
 //! Every sample has a camera and a place of its own, so samples share no more than a choice of octaves; the constant
 //! coordinate stays exact.
 
-use super::range::describe;
-use super::stability::{self, Changes};
-use super::{Attempt, Claim, Conclusion, Promise, Trial};
+use crate::check::claim::{Claim, Promise};
 use crate::check::evidence::ComparedShare;
-use crate::check::sample::placement;
+use crate::check::input::sample::placement;
+use crate::check::judge::shares::detectable_error;
+use crate::check::predict::redraw::Changes;
 use crate::check::tolerance::{FRAME_SHIFT, PLANE_HALF_SIDE, RASTER_RESOLUTION, RASTER_SAMPLES, REDRAW};
+use crate::check::trial::{Attempt, Conclusion, Trial, describe};
 use crate::check::{Draw, Evidence, Subject, Verdict};
 use crate::scene::{Camera, Fragment, Raster, Rectangle};
 use crate::stats::poisson_binomial;
@@ -127,7 +128,7 @@ fn trial(claim: &Claim, offsets: &[f64], subject: &Subject<'_>, draw: &Draw) -> 
         n: n as u64,
         effect: excess,
         effect_name: "excess in the share that is redrawn",
-        detectable: stability::detectable(&points),
+        detectable: detectable_error(&points),
         seen: seen.join("; "),
         evidence: Evidence::Comparison(points),
     })

@@ -1,11 +1,11 @@
 //! The range of the threshold, on every surface, with derivatives as they are and as a GPU takes them.
 
-use super::{Attempt, Claim, Conclusion, Promise, Trial, detectable_share};
-use crate::check::sample::{placed, placement};
+use crate::check::claim::{Claim, Promise};
+use crate::check::input::sample::{placed, placement};
 use crate::check::tolerance::RANGE_RESOLUTION;
+use crate::check::trial::{Attempt, Conclusion, Trial, describe, detectable_share};
 use crate::check::{Draw, Evidence, Subject, Verdict};
 use crate::scene::{Fragment, Scene};
-use crate::threshold::footprint::Footprint;
 
 /// Every threshold is a number in (0, 1], so that alpha 0 never passes and alpha 1 always does.
 pub const RANGE: Claim = Claim {
@@ -52,15 +52,4 @@ fn range(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
         seen: seen.join("; "),
         evidence: Evidence::None,
     })
-}
-
-/// Writes a footprint and its threshold so that they can be tried again.
-pub(super) fn describe(footprint: &Footprint<f64>, threshold: f64) -> String {
-    let vector = |v: glam::DVec3| format!("({:?}, {:?}, {:?})", v.x, v.y, v.z);
-    format!(
-        "{threshold:?} at position {}, dpdx {}, dpdy {}",
-        vector(footprint.position),
-        vector(footprint.dpdx),
-        vector(footprint.dpdy)
-    )
 }

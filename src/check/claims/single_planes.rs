@@ -1,11 +1,12 @@
 //! Uniformity on one plane at a time: the biases of several planes add up here and do not cancel.
 
-use super::uniform::{histogram, reject_outsiders, uniformity};
-use super::{Attempt, Claim, Conclusion, Promise, Trial};
+use crate::check::claim::{Claim, Promise};
 use crate::check::evidence::NamedHistogram;
-use crate::check::sample::independent;
-use crate::check::sheet::rotation;
+use crate::check::input::patch::rotation;
+use crate::check::input::sample::independent;
+use crate::check::judge::uniformity::{histogram, uniformity};
 use crate::check::tolerance::{BINS, PLANE_SAMPLES, PLANES};
+use crate::check::trial::{Attempt, Conclusion, Trial, reject_outsiders};
 use crate::check::{Draw, Evidence, Subject, Verdict};
 use crate::scene::{Camera, Rectangle, Scene};
 use crate::stats::chi_square::ChiSquare;

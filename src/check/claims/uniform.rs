@@ -1,15 +1,16 @@
 //! The law of the threshold: uniform, whatever the weight and the surface, and only thanks to Eq. 2.
 
-use super::range::describe;
-use super::{Attempt, Claim, Conclusion, Promise, Trial};
+use crate::check::claim::{Claim, Promise};
 use crate::check::evidence::NamedHistogram;
-use crate::check::sample::{general_scenes, independent};
+use crate::check::input::sample::{general_scenes, independent};
+use crate::check::judge::uniformity::{histogram, uniformity};
 use crate::check::tolerance::{
     BINS, DRAWS_A_PLACE, LEAST_GROUP, LERP_GROUPS, MARGINAL_SAMPLES, POWER, SINGLE_LEVEL,
 };
+use crate::check::trial::{Attempt, Conclusion, Trial, reject_outsiders};
 use crate::check::{Draw, Evidence, Subject, Verdict};
 use crate::scene::Fragment;
-use crate::stats::chi_square::{self, ChiSquare};
+use crate::stats::chi_square::ChiSquare;
 use crate::stats::histogram::Histogram;
 use crate::stats::{ecdf, power};
 
@@ -65,30 +66,6 @@ fn marginal_samples(subject: &Subject<'_>, claim: &Claim, draw: &Draw) -> Attemp
     let values = subject.thresholds(&samples);
     reject_outsiders(&samples, &values)?;
     Ok((samples, values))
-}
-
-/// Ends a claim whose samples are not all thresholds.
-pub(super) fn reject_outsiders<F: Copy + Into<Fragment>>(samples: &[F], values: &[f64]) -> Attempt<()> {
-    let outside = |value: &&f64| !(0.0..=1.0).contains(*value);
-    match values.iter().position(|value| outside(&value)) {
-        None => Ok(()),
-        Some(first) => Err(Box::new(Trial::no_thresholds(
-            values.iter().filter(outside).count(),
-            values.len(),
-            format!("first {}", describe(&samples[first].into().footprint, values[first])),
-        ))),
-    }
-}
-
-pub(super) fn histogram(values: impl IntoIterator<Item = f64>) -> Histogram {
-    let mut histogram = Histogram::new(BINS);
-    histogram.extend(values);
-    histogram
-}
-
-/// Tests one histogram; `None` if it has too few samples.
-pub(super) fn uniformity(histogram: &Histogram) -> Option<ChiSquare> {
-    (histogram.total() >= LEAST_GROUP as u64).then(|| chi_square::uniform(histogram.counts()).ok()).flatten()
 }
 
 fn marginal(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {

@@ -1,35 +1,13 @@
 //! A run: claims on subjects, one family of tests.
 
-use super::claims::{self, Attempt, Claim, Conclusion, Trial};
+use super::claim::Claim;
+use super::claims;
+use super::results::{Results, Suite};
 use super::tolerance::{FAMILY_LEVEL, SUSPICION};
-use super::{Budget, Draw, Outcome, Results, Subject, Verdict, findings};
+use super::trial::{Attempt, Conclusion, Trial};
+use super::{Budget, Draw, Outcome, Subject, Verdict, known};
 use crate::stats::sequential::{self, Finding};
 use rayon::prelude::*;
-
-/// What a subject is measured by.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Suite {
-    /// Every claim, the hard cases among them: what a threshold should do.
-    #[default]
-    All,
-    /// As good as the paper: a rejection counts unless the paper's own listing is known to fail there too
-    /// ([`findings`]).
-    Paper,
-}
-
-impl Suite {
-    /// Both suites.
-    pub const ALL: [Self; 2] = [Self::All, Self::Paper];
-
-    /// The word by which a user asks for it.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::All => "all",
-            Self::Paper => "paper",
-        }
-    }
-}
 
 /// Tries every claim on one subject, with seed 0.
 ///
@@ -163,7 +141,7 @@ fn outcome(
         seed: draw.seed,
         finding: (verdict != Verdict::Consistent).then_some(trial.seen),
         known: None,
-        listing_fails: findings::of_listing(claim.id, subject.variant, subject.precision),
+        listing_fails: known::of_listing(claim.id, subject.variant, subject.precision),
         evidence: trial.evidence,
     }
 }
@@ -171,7 +149,7 @@ fn outcome(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::check::claims::Promise;
+    use crate::check::claim::Promise;
     use crate::check::subject::Precision;
     use crate::threshold::two_scale::Variant;
 
@@ -221,7 +199,7 @@ mod tests {
         let asks = claim("asks", |subject, _| {
             let scene = &crate::scene::Scene::all()[0];
             let rng = &mut crate::stats::seed::rng("suite.tests", 0);
-            let threshold = subject.threshold(crate::check::sample::sighting(scene, rng).fragment);
+            let threshold = subject.threshold(crate::check::input::sample::sighting(scene, rng).fragment);
             Ok(Trial::without(Conclusion::Exact { holds: threshold.is_some() }, "no threshold"))
         });
         let broken =
