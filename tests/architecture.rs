@@ -1,98 +1,167 @@
-//! The wings of the crate import each other in one direction only, and some things stand in one place only.
+//! The wings of the crate import each other in one direction only, no files import each other, and some things stand in
+//! one place only.
 
+mod imports;
+
+use imports::{Imports, Sources, circles, imports};
+use std::collections::BTreeSet;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
+use std::sync::LazyLock;
 
-/// Each wing and the wings that it may import.
+/// Each wing and the wings that it imports.
 const MAY_IMPORT: [(&str, &[&str]); 10] = [
     ("threshold", &[]),
     ("stats", &[]),
     ("scene", &["threshold"]),
     ("technique", &["threshold", "scene"]),
-    ("shader", &["threshold", "scene", "technique"]),
-    ("render", &["threshold", "scene", "stats", "shader", "technique"]),
+    ("shader", &["threshold", "scene"]),
+    ("render", &["threshold", "scene", "shader", "technique"]),
     ("check", &["threshold", "scene", "stats", "shader"]),
-    ("cost", &["threshold", "scene", "stats", "shader", "technique", "render"]),
-    ("report", &["threshold", "scene", "stats", "shader", "technique", "render", "check", "cost"]),
-    ("cli", &["threshold", "scene", "stats", "shader", "technique", "render", "check", "cost", "report"]),
+    ("cost", &["threshold", "stats", "shader", "technique", "render"]),
+    ("report", &["threshold", "render", "check", "cost"]),
+    ("cli", &["threshold", "scene", "shader", "render", "check", "cost", "report"]),
 ];
 
-fn rust_files(folder: &Path) -> Vec<PathBuf> {
-    let mut found = Vec::new();
-    for entry in fs::read_dir(folder).expect("the folder exists") {
-        let path = entry.expect("an entry").path();
-        if path.is_dir() {
-            found.extend(rust_files(&path));
-        } else if path.extension().is_some_and(|extension| extension == "rs") {
-            found.push(path);
+/// Files that use each other, in all circles together.
+const IN_CIRCLES: usize = 103;
+/// Imports of one claim's file by another's.
+const SIDEWAYS: usize = 32;
+
+/// The text of every source file.
+fn sources() -> Sources {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut folders = vec![root.clone()];
+    let mut sources = Sources::new();
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(folder).expect("the folder exists") {
+            let path = entry.expect("an entry").path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|extension| extension == "rs") {
+                let name =
+                    path.strip_prefix(&root).expect("below the root").to_string_lossy().replace('\\', "/");
+                sources.insert(name, fs::read_to_string(&path).expect("a source file"));
+            }
         }
     }
-    found.sort();
-    found
+    sources
+}
+
+/// What the source files import.
+static IMPORTS: LazyLock<Imports> = LazyLock::new(|| imports(&sources()));
+
+/// The same with a few files more, which know each other only.
+fn with(files: &[(&str, &str)]) -> Imports {
+    let more = imports(&files.iter().map(|(file, text)| ((*file).to_owned(), (*text).to_owned())).collect());
+    let taken: Vec<_> = more.keys().filter(|file| IMPORTS.contains_key(*file)).collect();
+    assert!(taken.is_empty(), "{taken:?}");
+    IMPORTS.clone().into_iter().chain(more).collect()
 }
 
 /// The lines of a file that are code of the crate itself: no comments, nothing from the unit tests on.
-fn code(path: &Path) -> String {
-    let text = fs::read_to_string(path).expect("a source file");
+fn code(text: &str) -> String {
     let code = text.split("#[cfg(test)]\nmod tests").next().unwrap_or_default();
     code.lines().filter(|line| !line.trim_start().starts_with("//")).collect::<Vec<_>>().join("\n")
 }
 
-fn source() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("src")
+fn wing(file: &str) -> Option<&str> {
+    file.split_once('/').map(|(wing, _)| wing)
+}
+
+/// Each pair of a wing and another that it imports, with a file that does.
+fn arrows(imports: &Imports) -> BTreeSet<(&str, &str)> {
+    let pairs = imports.iter().flat_map(|(file, used)| used.iter().map(move |used| (wing(file), wing(used))));
+    pairs.filter_map(|(from, to)| Some((from?, to?))).filter(|(from, to)| from != to).collect()
+}
+
+fn permitted() -> BTreeSet<(&'static str, &'static str)> {
+    MAY_IMPORT.iter().flat_map(|(wing, others)| others.iter().map(move |other| (*wing, *other))).collect()
+}
+
+fn forbidden(imports: &Imports) -> Vec<(&str, &str)> {
+    arrows(imports).difference(&permitted()).copied().collect()
+}
+
+fn unused(imports: &Imports) -> Vec<(&'static str, &'static str)> {
+    let arrows = arrows(imports);
+    permitted().into_iter().filter(|arrow| !arrows.contains(arrow)).collect()
+}
+
+/// Imports of one claim's file by another's.
+fn sideways(imports: &Imports) -> Vec<(&str, &str)> {
+    let is_claim = |file: &str| file.starts_with("check/claims/") && !file.ends_with("/mod.rs");
+    let claims = imports.iter().filter(|(file, _)| is_claim(file));
+    claims
+        .flat_map(|(file, used)| used.iter().map(move |used| (file.as_str(), used.as_str())))
+        .filter(|(_, used)| is_claim(used))
+        .collect()
 }
 
 #[test]
 fn wings_import_in_one_direction() {
-    for (wing, allowed) in MAY_IMPORT {
-        for path in rust_files(&source().join(wing)) {
-            let code = code(&path);
-            for (other, _) in
-                MAY_IMPORT.iter().filter(|(other, _)| *other != wing && !allowed.contains(other))
-            {
-                for import in [format!("crate::{other}"), format!("hashed_alpha::{other}")] {
-                    assert!(!code.contains(&import), "{} imports {other}", path.display());
-                }
-            }
-        }
-    }
+    assert_eq!(forbidden(&IMPORTS), []);
+    let nosy = "fn f(x: &crate::threshold::new::New) {}";
+    let more = with(&[("threshold/new.rs", "pub struct New;"), ("stats/nosy.rs", nosy)]);
+    assert_eq!(forbidden(&more), [("stats", "threshold")]);
+}
+
+#[test]
+fn every_permission_is_used() {
+    assert_eq!(unused(&IMPORTS), []);
+    let without_cost = IMPORTS.iter().filter(|(file, _)| wing(file) != Some("cost"));
+    let fewer = without_cost.map(|(file, used)| (file.clone(), used.clone())).collect();
+    assert!(unused(&fewer).contains(&("cost", "render")));
+}
+
+#[test]
+fn no_files_import_each_other() {
+    let found = circles(&IMPORTS);
+    assert!(found.concat().len() <= IN_CIRCLES, "{found:#?}");
+    let more = with(&[
+        ("stats/a.rs", "use super::b::B; pub struct A;"),
+        ("stats/b.rs", "pub struct B; fn f() -> crate::stats::a::A { todo!() }"),
+        // A file and the module that it lies in are a circle like any other.
+        ("stats/c/mod.rs", "mod d; use d::D; pub struct C;"),
+        ("stats/c/d.rs", "pub struct D(super::C);"),
+    ]);
+    assert_eq!(circles(&more).len(), found.len() + 2);
+}
+
+#[test]
+fn no_claim_imports_another() {
+    let found = sideways(&IMPORTS);
+    assert!(found.len() <= SIDEWAYS, "{found:#?}");
+    let more =
+        with(&[("check/claims/a.rs", "pub fn f() {}"), ("check/claims/b.rs", "fn g() { super::a::f() }")]);
+    assert_eq!(sideways(&more).len(), found.len() + 1);
 }
 
 #[test]
 fn every_folder_is_a_wing() {
-    let mut wings: Vec<_> = fs::read_dir(source())
-        .expect("src exists")
-        .filter_map(|entry| entry.ok().filter(|entry| entry.path().is_dir()))
-        .map(|entry| entry.file_name().into_string().expect("UTF-8"))
-        .collect();
-    wings.sort();
-    let mut known: Vec<_> = MAY_IMPORT.iter().map(|(wing, _)| (*wing).to_owned()).collect();
-    known.sort();
-    assert_eq!(wings, known);
+    let sources = sources();
+    let wings: BTreeSet<&str> = sources.keys().filter_map(|file| wing(file)).collect();
+    assert_eq!(wings, MAY_IMPORT.iter().map(|(wing, _)| *wing).collect());
 }
 
 #[test]
 fn the_threshold_takes_its_transcendentals_from_one_place() {
-    for path in rust_files(&source().join("threshold")) {
-        let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
-        if ["real.rs", "normal.rs", "emulated.rs"].contains(&name) {
+    for (file, text) in sources().iter().filter(|(file, _)| wing(file) == Some("threshold")) {
+        if ["real.rs", "normal.rs", "emulated.rs"].iter().any(|name| file.ends_with(name)) {
             continue;
         }
-        let code = code(&path);
         // Powers of two of whole numbers are exact and may be written anywhere.
         for call in ["libm::sin", "libm::cos", "libm::log", "libm::exp(", "libm::pow", "libm::erf"] {
-            assert!(!code.contains(call), "{} calls {call}", path.display());
+            assert!(!code(text).contains(call), "{file} calls {call}");
         }
     }
 }
 
 #[test]
 fn only_the_command_line_prints() {
-    for wing in ["threshold", "stats", "scene", "shader", "technique", "render", "check", "cost", "report"] {
-        for path in rust_files(&source().join(wing)) {
-            for word in ["println!", "eprintln!", "stdout()", "stderr()"] {
-                assert!(!code(&path).contains(word), "{} has {word}", path.display());
-            }
+    for (file, text) in sources().iter().filter(|(file, _)| wing(file).is_some_and(|wing| wing != "cli")) {
+        for word in ["println!", "eprintln!", "stdout()", "stderr()"] {
+            assert!(!code(text).contains(word), "{file} has {word}");
         }
     }
 }

@@ -1,8 +1,6 @@
 //! The batch has the bits of the scalar path: every model, both precisions, every instruction set of the machine.
 
-mod budget;
-
-use budget::budget;
+use crate::budget::budget;
 use hashed_alpha::threshold::batch::{BLOCK, Batch, Bins, CHUNK, ColumnBuffer, Isa, Lane, Model, Tier};
 use hashed_alpha::threshold::cdf::CdfForm;
 use hashed_alpha::threshold::footprint::Footprint;

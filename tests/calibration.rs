@@ -6,9 +6,7 @@
 //! after every few runs. With `HASHED_ALPHA_RESUME=FILE` the p-values go to a file as well, and runs that it has are not
 //! run again: a thousand take hours.
 
-mod budget;
-
-use budget::budget;
+use crate::budget::budget;
 use hashed_alpha::check::specimen::ideal;
 use hashed_alpha::check::subject::Precision;
 use hashed_alpha::check::tolerance::{FAMILY_LEVEL, SUSPICION};

@@ -1,5 +1,5 @@
 //! The table of GDC 2017 ("Key: Coordinate Choice For Hash Input"), measured; it is kept in `docs/coordinates.md`, which
-//! `HASHED_ALPHA_BLESS=all cargo test --test coordinates` writes anew.
+//! `HASHED_ALPHA_BLESS=all cargo test --test main coordinates::` writes anew.
 
 use hashed_alpha::check::Draw;
 use hashed_alpha::check::coordinates::{Coordinates, Stated, TableCell, table};
@@ -25,7 +25,7 @@ fn page(entries: &[TableCell]) -> String {
         threshold but\nfor what the change of its scale explains. A `?` of the slides is about coordinates that are \
         hashed before the deformation,\nas here; after it they are those of the world.\n\n\
         The marks with a star (\"somewhat generous\") do not hold for a camera that moves by a few pixels: another pixel is\n\
-        another cell. All others do. Written by `HASHED_ALPHA_BLESS=all cargo test --test coordinates`.\n\n|"
+        another cell. All others do. Written by `HASHED_ALPHA_BLESS=all cargo test --test main coordinates::`.\n\n|"
         .to_owned();
     for motion in Motion::ALL {
         write!(page, " | {}", motion.name()).expect("writing into memory cannot fail");
@@ -56,5 +56,5 @@ fn the_table_of_the_slides_is_confirmed_but_for_its_stars() {
         std::fs::write(&path, page(&entries)).expect("the page can be written");
     }
     let committed = std::fs::read_to_string(&path).expect("docs/coordinates.md is there");
-    assert_eq!(committed, page(&entries), "HASHED_ALPHA_BLESS=all cargo test --test coordinates");
+    assert_eq!(committed, page(&entries), "HASHED_ALPHA_BLESS=all cargo test --test main coordinates::");
 }

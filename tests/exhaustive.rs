@@ -1,9 +1,7 @@
 //! Statements about every number: functions of one `f32` over their whole domain, the CDF at every junction, every
 //! exponent. `HASHED_ALPHA_BUDGET` says how many of them are looked at (see `budget`).
 
-mod budget;
-
-use budget::{Budget, budget};
+use crate::budget::{Budget, budget};
 use hashed_alpha::threshold::batch::Isa;
 use hashed_alpha::threshold::cdf::CdfForm;
 use hashed_alpha::threshold::emulated::{Arithmetic, Emulated, Half};

@@ -2,7 +2,7 @@
 //! number of threads.
 //!
 //! A change of these lines is a change of seeded results and belongs into the changelog;
-//! `HASHED_ALPHA_BLESS=all cargo test --test golden` writes them anew.
+//! `HASHED_ALPHA_BLESS=all cargo test --test main golden::` writes them anew.
 
 use hashed_alpha::check::evidence::{ComparedShare, Evidence};
 use hashed_alpha::check::specimen::{self, ideal};

@@ -4,11 +4,8 @@
 //! the correctly rounded functions of CORE-MATH, which add up to half an ULP of their own.
 #![allow(clippy::print_stdout)] // What was measured, for those who ask with --nocapture.
 
-mod budget;
-mod exact;
-
-use budget::{Budget, budget};
-use exact::Exact;
+use crate::budget::{Budget, budget};
+use crate::exact::Exact;
 use hashed_alpha::stats::seed::{rng, uniform01};
 use hashed_alpha::threshold::cdf::{cdf, cdf_literal, density, quantile};
 use hashed_alpha::threshold::footprint::Footprint;

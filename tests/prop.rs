@@ -2,15 +2,15 @@
 
 use core::num::NonZeroU32;
 use glam::{DVec3, dvec3};
-use hashed_alpha::technique::blend_towards::blend_towards;
-use hashed_alpha::technique::order::Order;
-use hashed_alpha::technique::{mask, screen_door};
 use hashed_alpha::threshold::cdf::CdfForm;
 use hashed_alpha::threshold::cdf::{cdf, cdf_literal, density, quantile};
 use hashed_alpha::threshold::footprint::Footprint;
 use hashed_alpha::threshold::hash::{HashKind, open_lattice, sine};
 use hashed_alpha::threshold::hashed::{HashedAlpha, SMALLEST_THRESHOLD};
 use hashed_alpha::threshold::robust::{Join, Repairs, Robust, scales};
+use hashed_alpha::threshold::stage::blend_towards::blend_towards;
+use hashed_alpha::threshold::stage::order::Order;
+use hashed_alpha::threshold::stage::{mask, screen_door};
 use hashed_alpha::threshold::two_scale::Variant;
 use proptest::prelude::*;
 

@@ -1,7 +1,5 @@
 //! Scenes: the gallery shows what it must, plans cost what they predict, and an absent table leaves no trace.
 
-#![cfg(feature = "render")]
-
 use hashed_alpha::render::adjust::textures;
 use hashed_alpha::render::effects::{self, ALL, Effects};
 use hashed_alpha::render::file::{self, SceneFile, Takes};
@@ -10,13 +8,13 @@ use hashed_alpha::render::plan::{Census, Plan, plan};
 use hashed_alpha::render::prepare::{Scene, prepare};
 use hashed_alpha::render::stage::hashes;
 use hashed_alpha::render::study::{Study, study};
-use hashed_alpha::technique::order::Order;
 use hashed_alpha::threshold::batch::Model;
 use hashed_alpha::threshold::cdf::CdfForm;
 use hashed_alpha::threshold::footprint::Footprint;
 use hashed_alpha::threshold::hash::{Cell, Hash, HashKind};
 use hashed_alpha::threshold::hashed::HashedAlpha;
 use hashed_alpha::threshold::robust::{Join, Robust};
+use hashed_alpha::threshold::stage::order::Order;
 use hashed_alpha::threshold::two_scale::Variant;
 use proptest::prelude::*;
 use std::path::Path;

@@ -1,7 +1,5 @@
 //! A user's own images and meshes either work or are refused with a message that names the file and the reason.
 
-#![cfg(feature = "render")]
-
 use hashed_alpha::render::file;
 use hashed_alpha::render::prepare::{Scene, prepare};
 use image::{DynamicImage, GrayImage, RgbImage, RgbaImage};

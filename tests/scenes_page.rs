@@ -1,7 +1,5 @@
 //! `docs/scenes.md` has every key of a scene file, every effect with its keys, every number and every scene of the gallery.
 
-#![cfg(feature = "render")]
-
 use hashed_alpha::render::effects::{ALL, Effects};
 use hashed_alpha::render::file::{self, SceneFile};
 use hashed_alpha::render::gallery::GALLERY;

@@ -8,19 +8,21 @@ use glam::{Vec3, vec3};
 use hashed_alpha::check::{Draw, Outcome, Subject, Verdict, claims, run_claims, subject::Precision};
 use hashed_alpha::stats::{chi_square, correlation};
 use hashed_alpha::threshold::cdf::{cdf, cdf_literal};
-use hashed_alpha::threshold::coverage::{
-    decorrelated, decorrelated_literal, jittered, jittered_literal, regular,
-};
 use hashed_alpha::threshold::emulated::{Emulated, Half};
-use hashed_alpha::threshold::fade_in::{
-    anisotropy, anisotropy_literal, blend, blend_literal, fade_in, fade_in_literal,
-};
 use hashed_alpha::threshold::footprint::Footprint;
 use hashed_alpha::threshold::hash::{Cell, Hash, HashKind, sine};
 use hashed_alpha::threshold::hashed::HashedAlpha;
 use hashed_alpha::threshold::real::{Real, log2_f32};
 use hashed_alpha::threshold::robust::Robust;
-use hashed_alpha::threshold::stratify::{alternating, alternating_literal, stratified, stratified_literal};
+use hashed_alpha::threshold::stage::coverage::{
+    decorrelated, decorrelated_literal, jittered, jittered_literal, regular,
+};
+use hashed_alpha::threshold::stage::fade_in::{
+    anisotropy, anisotropy_literal, blend, blend_literal, fade_in, fade_in_literal,
+};
+use hashed_alpha::threshold::stage::stratify::{
+    alternating, alternating_literal, stratified, stratified_literal,
+};
 use hashed_alpha::threshold::two_scale::Variant;
 use std::collections::BTreeSet;
 

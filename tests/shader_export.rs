@@ -6,11 +6,11 @@
 use hashed_alpha::shader::assemble::{Coverage, FadeIn, ScreenDoor, ShaderOptions, Source, Strata, Stratify};
 use hashed_alpha::shader::export::{Language, export};
 use hashed_alpha::shader::own;
-use hashed_alpha::technique::order::Order;
-use hashed_alpha::technique::stipple::Density;
 use hashed_alpha::threshold::cdf::CdfForm;
 use hashed_alpha::threshold::hash::HashKind;
 use hashed_alpha::threshold::robust::Join;
+use hashed_alpha::threshold::stage::order::Order;
+use hashed_alpha::threshold::stage::stipple::Density;
 use hashed_alpha::threshold::two_scale::Variant;
 use libtest_mimic::{Arguments, Failed, Trial};
 use std::collections::BTreeMap;

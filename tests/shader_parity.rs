@@ -1,6 +1,5 @@
 //! The assembled WGSL against its Rust twins, on the interpreter: which are the same bits, and how far the others are
 //! apart.
-#![cfg(feature = "shader")]
 
 use core::num::{NonZeroU16, NonZeroU32};
 use hashed_alpha::scene::fragment::Fragment;
@@ -14,16 +13,15 @@ use hashed_alpha::shader::own::{self, OwnShader};
 use hashed_alpha::technique::conservative;
 use hashed_alpha::technique::foveated::Gaze;
 use hashed_alpha::technique::occlusion::cosine_direction;
-use hashed_alpha::technique::stipple::{self, Density};
-use hashed_alpha::technique::{mask, order::Order, screen_door};
 use hashed_alpha::threshold::cdf::CdfForm;
 use hashed_alpha::threshold::footprint::Footprint;
 use hashed_alpha::threshold::hash::integer::pcg4d;
 use hashed_alpha::threshold::hash::{HashKind, open_lattice};
 use hashed_alpha::threshold::hashed::HashedAlpha;
 use hashed_alpha::threshold::robust::{Join, Repairs, Robust};
+use hashed_alpha::threshold::stage::stipple::{self, Density};
+use hashed_alpha::threshold::stage::{coverage, fade_in, mask, order::Order, screen_door, stratify};
 use hashed_alpha::threshold::two_scale::Variant;
-use hashed_alpha::threshold::{coverage, fade_in, stratify};
 use rand::{RngExt, SeedableRng, rngs::Xoshiro256PlusPlus};
 
 /// Positions over eleven octaves, derivatives over sixteen, in general position; values that `f32` holds.

@@ -1,16 +1,15 @@
 //! The assembled WGSL: every combination is a sound module, holds nothing that was not asked for, and keeps its names
 //! in every language.
-#![cfg(feature = "shader")]
 
 use core::num::NonZeroU16;
 use hashed_alpha::shader::assemble::{
     Coverage, FadeIn, InvalidOption, ScreenDoor, ShaderOptions, Source, Strata, Stratify, assemble,
 };
-use hashed_alpha::technique::order::Order;
-use hashed_alpha::technique::stipple::Density;
 use hashed_alpha::threshold::cdf::CdfForm;
 use hashed_alpha::threshold::hash::HashKind;
 use hashed_alpha::threshold::robust::Join;
+use hashed_alpha::threshold::stage::order::Order;
+use hashed_alpha::threshold::stage::stipple::Density;
 use hashed_alpha::threshold::two_scale::Variant;
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{Expression, Function, Module, TypeInner};

@@ -1,7 +1,5 @@
 //! Every technique that the sources name is shown by a take of the gallery, tested, and priced.
 
-#![cfg(feature = "render")]
-
 use hashed_alpha::cost::Effort;
 use hashed_alpha::cost::techniques::{take, techniques, without};
 use hashed_alpha::render::adjust::textures;

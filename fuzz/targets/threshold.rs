@@ -13,7 +13,7 @@ use hashed_alpha::threshold::hash::HashKind;
 use hashed_alpha::threshold::real::Real;
 use hashed_alpha::threshold::robust::{Join, Robust};
 use hashed_alpha::threshold::two_scale::Variant;
-use hashed_alpha::threshold::{coverage, fade_in, stratify};
+use hashed_alpha::threshold::stage::{clamp, coverage, fade_in, stratify};
 use libfuzzer_sys::fuzz_target;
 
 /// Reads numbers off the input; zeros behind its end.
@@ -84,7 +84,7 @@ fn chain<R: Real>(footprint: Footprint<R>, options: u64, hash_scale: f64, [lod, 
             0 => stratify::stratified(chained, stratify::alternating(frame, n), n),
             1 => coverage::jittered(chained, coverage::decorrelated([threshold, chained], frame, n), n),
             2 => fade_in::fade_in(chained, share),
-            3 => fade_in::clamp_last(coverage::regular(frame % n, n)),
+            3 => clamp::clamp_last(coverage::regular(frame % n, n)),
             _ => chained,
         };
         assert_threshold(chained, "chained");

@@ -8,7 +8,7 @@ use crate::threshold::hashed::HashedAlpha;
 use crate::threshold::real::Real;
 use crate::threshold::robust::scales::{self, Scales};
 use crate::threshold::robust::{Join, Repair, Repairs, Robust};
-use crate::threshold::stratify::{alternating, stratified};
+use crate::threshold::stage::stratify::{alternating, stratified};
 use crate::threshold::two_scale::Variant;
 use core::fmt;
 use core::num::NonZeroU32;
@@ -129,7 +129,7 @@ impl<'a> Subject<'a> {
     ///
     /// ```
     /// use hashed_alpha::check::{Subject, subject::Precision};
-    /// use hashed_alpha::threshold::{named::listing_1_f32, two_scale::Variant};
+    /// use hashed_alpha::threshold::{names::listing_1_f32, two_scale::Variant};
     ///
     /// let mine = Subject::new("mine", Precision::F32, Variant::Isotropic, |footprint| {
     ///     f64::from(listing_1_f32(&footprint.cast(), 1.0))

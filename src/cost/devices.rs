@@ -11,10 +11,10 @@ use crate::shader::assemble::{
     Coverage, FadeIn, ScreenDoor, ShaderOptions, Source, Strata, Stratify, assemble,
 };
 use crate::shader::gpu::{Device, Error, Kernel, Program};
-use crate::technique::order::Order;
-use crate::technique::stipple::Density;
 use crate::threshold::hash::HashKind;
 use crate::threshold::robust::Join;
+use crate::threshold::stage::order::Order;
+use crate::threshold::stage::stipple::Density;
 use crate::threshold::two_scale::Variant;
 use core::num::NonZeroU16;
 use std::time::{Duration, Instant};

@@ -8,16 +8,17 @@ use super::clock::{Contender, Time, race};
 use super::pool::{Pool, SLICE, WIDE};
 use crate::stats::seed;
 use crate::technique::multisampling::sample_place;
-use crate::technique::stipple::{self, Density};
-use crate::technique::{mask, screen_door};
+use crate::threshold::stage::stipple::{self, Density};
+
 use crate::threshold::batch::{Batch, Model, Tier};
-use crate::threshold::fade_in::{anisotropy, blend, fade_in};
 use crate::threshold::fixed::{FIXED_THRESHOLD, passes};
 use crate::threshold::hash::{HashKind, integer::pcg4d, open_lattice};
 use crate::threshold::hashed::HashedAlpha;
 use crate::threshold::robust::Robust;
+use crate::threshold::stage::fade_in::{anisotropy, blend, fade_in};
+use crate::threshold::stage::{coverage, mask, screen_door, stratify};
 use crate::threshold::two_scale::Variant;
-use crate::threshold::{cdf::CdfForm, coverage, stochastic, stratify};
+use crate::threshold::{cdf::CdfForm, stochastic};
 use core::num::NonZeroU32;
 use rand::{RngExt, SeedableRng, rngs::Xoshiro256PlusPlus};
 

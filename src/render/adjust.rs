@@ -3,9 +3,9 @@
 use super::plan::TextureNeeds;
 use super::prepare::Scene;
 use super::texture::{Level, Texture};
-use crate::technique::remedies;
-use crate::technique::remedies::level_threshold::level_threshold;
-use crate::technique::remedies::scaled_alpha::{alpha_scale, scaled, scaled_by_texel};
+use crate::technique::prior_work;
+use crate::technique::prior_work::level_threshold::level_threshold;
+use crate::technique::prior_work::scaled_alpha::{alpha_scale, scaled, scaled_by_texel};
 
 /// The threshold of the finest level, of which the other levels keep the share.
 const REFERENCE: f32 = 0.5;
@@ -41,7 +41,12 @@ pub fn textures(scene: &Scene, needs: TextureNeeds) -> Vec<Texture> {
     textures
 }
 
-fn scale(level: remedies::Level<'_>, base: remedies::Level<'_>, share: f64, scaling: Scaling) -> Vec<f32> {
+fn scale(
+    level: prior_work::Level<'_>,
+    base: prior_work::Level<'_>,
+    share: f64,
+    scaling: Scaling,
+) -> Vec<f32> {
     match scaling {
         // A map whose sides are no powers of two has no whole number of base texels under each texel.
         Scaling::Texels(radius)
@@ -53,7 +58,7 @@ fn scale(level: remedies::Level<'_>, base: remedies::Level<'_>, share: f64, scal
     }
 }
 
-fn view(level: &Level) -> remedies::Level<'_> {
+fn view(level: &Level) -> prior_work::Level<'_> {
     let [width, height] = level.size.map(|side| side as usize);
-    remedies::Level { texels: &level.alpha, width, height }
+    prior_work::Level { texels: &level.alpha, width, height }
 }

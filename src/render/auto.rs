@@ -5,8 +5,8 @@ use super::prepare::Scene;
 use super::survey::Survey;
 use super::tables::{AlphaToCoverage, Average, FadeIn, Fixed, Pattern, Premultiplied, RobustHash, Temporal};
 use super::texture::Texture;
-use crate::technique::order::Order;
 use crate::threshold::hash::HashKind;
+use crate::threshold::stage::order::Order;
 use crate::threshold::two_scale::Variant;
 
 /// What was chosen.

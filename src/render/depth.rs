@@ -91,7 +91,7 @@ impl Depth {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::technique::stipple::{Density, keeps};
+    use crate::threshold::stage::stipple::{Density, keeps};
 
     fn depth(size: [u32; 2], of: impl Fn([u32; 2]) -> f32) -> Depth {
         Depth { size, values: (0..size[0] * size[1]).map(|at| of([at % size[0], at / size[0]])).collect() }

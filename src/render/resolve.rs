@@ -3,7 +3,7 @@
 use super::picture::{LEAF, SKY};
 use super::run::{Draw, NONE, PIXELS, TileResult, Work};
 use crate::technique::premultiplied;
-use crate::technique::remedies::test_then_blend::Layer;
+use crate::technique::prior_work::test_then_blend::Layer;
 
 impl Draw<'_> {
     /// Draws what is nearest of the fragments that are kept, at each sample.

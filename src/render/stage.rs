@@ -3,10 +3,10 @@
 use super::adjust::Scaling;
 use super::tables::{Apart, Chi, Door, FadeIn, History, Occlusion, Pattern, Space};
 use crate::technique::foveated::Gaze;
-use crate::technique::order::Order;
-use crate::technique::stipple::Density;
 use crate::threshold::batch::Model;
 use crate::threshold::robust::Join;
+use crate::threshold::stage::order::Order;
+use crate::threshold::stage::stipple::Density;
 use crate::threshold::two_scale::Variant;
 use core::num::NonZeroU32;
 

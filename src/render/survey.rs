@@ -7,8 +7,8 @@ use super::study::Shot;
 use super::tables::Space;
 use super::texture::Texture;
 use super::view::Cause;
-use crate::threshold::fade_in::anisotropy;
 use crate::threshold::fixed::{FIXED_THRESHOLD, passes};
+use crate::threshold::stage::fade_in::anisotropy;
 use glam::{DVec2, vec2};
 
 /// Levels of detail that are told apart: 0 for magnified fragments, then one a level.

@@ -1,11 +1,11 @@
 //! The tables of effects as a scene file has them, one struct each.
 
 use crate::technique::foveated::Gaze;
-use crate::technique::order::Order;
-use crate::technique::stipple::Density;
 use crate::threshold::cdf::CdfForm;
 use crate::threshold::hash::HashKind;
 use crate::threshold::robust::Join;
+use crate::threshold::stage::order::Order;
+use crate::threshold::stage::stipple::Density;
 use crate::threshold::two_scale::Variant;
 use core::num::NonZeroU32;
 use serde::de::Error as _;

@@ -4,11 +4,11 @@
 //! and the robust text agree with it in all but the last bits of `log2` and of the divisions; the copula join, which
 //! Rust computes in `f64`, and the sine hash are stated apart where they are tested.
 
-use crate::technique::order::Order;
-use crate::technique::stipple::Density;
 use crate::threshold::cdf::CdfForm;
 use crate::threshold::hash::HashKind;
 use crate::threshold::robust::Join;
+use crate::threshold::stage::order::Order;
+use crate::threshold::stage::stipple::Density;
 use crate::threshold::two_scale::Variant;
 use core::fmt::Write as _;
 use core::num::NonZeroU16;
@@ -37,7 +37,7 @@ pub enum Source {
     Stipple(Density),
 }
 
-/// Which threshold a pixel of a tile of 4 x 4 has, see [`screen_door`](crate::technique::screen_door).
+/// Which threshold a pixel of a tile of 4 x 4 has, see [`screen_door`](crate::threshold::stage::screen_door).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ScreenDoor {
     /// The ordered dither, the same in every tile and for every layer.

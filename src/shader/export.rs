@@ -7,9 +7,9 @@
 use super::assemble::{
     Coverage, FadeIn, InvalidOption, ScreenDoor, ShaderOptions, Source, Strata, Stratify, assemble,
 };
-use crate::technique::stipple::Density;
 use crate::threshold::hash::{UnknownName, by_name};
 use crate::threshold::robust::Robust;
+use crate::threshold::stage::stipple::Density;
 use crate::threshold::two_scale::Variant;
 use core::fmt;
 use core::str::FromStr;

@@ -43,7 +43,7 @@ impl Gaze {
 
 #[cfg(test)]
 mod tests {
-    use super::super::remedies::tests::leaves;
+    use super::super::prior_work::tests::leaves;
     use super::*;
 
     const GAZE: Gaze = Gaze { centre: [400.0, 300.0], radius: 100.0, slope: 0.05 };

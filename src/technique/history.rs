@@ -81,10 +81,10 @@ pub fn flicker_range(sequence: &[f64], weight: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::order::Order;
     use super::*;
     use crate::threshold::hash::integer::murmur3;
     use crate::threshold::hash::open_lattice;
+    use crate::threshold::stage::order::Order;
     use core::num::NonZeroU32;
     use glam::{DVec3, dvec2, dvec3};
 

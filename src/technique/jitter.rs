@@ -1,6 +1,6 @@
 //! The camera's offsets within a pixel, frame by frame (§7.2; Karis 2014).
 
-use super::order::radical_inverse;
+use crate::threshold::stage::order::radical_inverse;
 use core::num::NonZeroU32;
 
 /// Returns the offset of the camera in frame `i` of `n`, in pixels along screen x and y: the point `i mod n + 1` of the

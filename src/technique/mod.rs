@@ -5,21 +5,15 @@
 //!
 //! What never lives here: scenes, pictures, files, statistics.
 
-pub mod blend_towards;
 pub mod conservative;
 pub mod foveated;
 pub mod history;
-pub mod independent;
 pub mod jitter;
-pub mod mask;
 pub mod multisampling;
 pub mod noise_scale;
 pub mod occlusion;
-pub mod order;
 pub mod premultiplied;
-pub mod remedies;
-pub mod screen_door;
-pub mod stipple;
+pub mod prior_work;
 
 /// A technique that the sources name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -78,7 +72,7 @@ pub const ALL: &[Technique] = &[
     technique(
         "level-threshold",
         "§3, Eq. 1",
-        "technique::remedies::level_threshold",
+        "technique::prior_work::level_threshold",
         "A threshold for each level keeps the share of passing texels; geometry can still vanish.",
     )
     .seen("mips-and-wires", "a threshold a level", "level_threshold")
@@ -86,7 +80,7 @@ pub const ALL: &[Technique] = &[
     technique(
         "scaled-alpha",
         "§3 (Castano 2010)",
-        "technique::remedies::scaled_alpha",
+        "technique::prior_work::scaled_alpha",
         "Scaled alphas are equivalent to a threshold for each level, and dilate thin geometry.",
     )
     .seen("castano", "scaled alpha", "scaled_alpha")
@@ -94,7 +88,7 @@ pub const ALL: &[Technique] = &[
     technique(
         "texel-threshold",
         "§3",
-        "technique::remedies::level_threshold",
+        "technique::prior_work::level_threshold",
         "A threshold for each texel needs a rule that is not obvious, and may only dilate boundaries.",
     )
     .seen("castano", "scaled texels", "scaled_texels")
@@ -102,7 +96,7 @@ pub const ALL: &[Technique] = &[
     technique(
         "finest-level",
         "§3",
-        "technique::remedies::finest_level",
+        "technique::prior_work::finest_level",
         "Alpha from the finest level keeps its variance, and costs a second fetch and temporal stability.",
     )
     .seen("mips-and-wires", "finest level", "finest_level")
@@ -110,7 +104,7 @@ pub const ALL: &[Technique] = &[
     technique(
         "limited-level",
         "§3",
-        "technique::remedies::finest_level",
+        "technique::prior_work::finest_level",
         "Levels beyond a limit are not read; the cost is that of the finest level, put off.",
     )
     .seen("mips-and-wires", "no coarser than level 3", "limited_level")
@@ -118,7 +112,7 @@ pub const ALL: &[Technique] = &[
     technique(
         "naive-blend",
         "§3",
-        "technique::remedies::test_then_blend",
+        "technique::prior_work::test_then_blend",
         "Blending in any order with depth writes leaves halos.",
     )
     .seen("blending", "naive blend", "naive_blend")
@@ -126,7 +120,7 @@ pub const ALL: &[Technique] = &[
     technique(
         "test-then-blend",
         "§3 (Moore & Jefferies 2009)",
-        "technique::remedies::test_then_blend",
+        "technique::prior_work::test_then_blend",
         "Transparent fragments never hide opaque ones; everything is drawn twice.",
     )
     .seen("blending", "test, then blend", "test_then_blend")
@@ -134,7 +128,7 @@ pub const ALL: &[Technique] = &[
     technique(
         "supersampling",
         "§3",
-        "technique::remedies::supersampling",
+        "technique::prior_work::supersampling",
         "Enough samples of binary alpha give accurate visibility; the number needed has no bound.",
     )
     .seen("blending", "supersampled", "supersampling")
@@ -142,7 +136,7 @@ pub const ALL: &[Technique] = &[
     technique(
         "sorted-blend",
         "§4, Fig. 5",
-        "technique::remedies::test_then_blend",
+        "technique::prior_work::test_then_blend",
         "The ground truth to which many stochastic samples converge.",
     )
     .seen("samples-converge", "64 samples", TRUTH)
@@ -206,7 +200,7 @@ pub const ALL: &[Technique] = &[
     technique(
         "fade-in",
         "§7.1, Eqs. 3-5",
-        "threshold::fade_in",
+        "threshold::stage::fade_in",
         "Noise fades in with distance, near surfaces stay crisp.",
     )
     .seen("fade-in", "faded in", "fade_in")
@@ -214,7 +208,7 @@ pub const ALL: &[Technique] = &[
     technique(
         "anisotropy-factor",
         "§7.1.1",
-        "threshold::fade_in",
+        "threshold::stage::fade_in",
         "Noise fades in earlier at grazing angles, where fine levels are read.",
     )
     .seen("grazing-fence", "faded in by anisotropy", "fade_in")
@@ -222,7 +216,7 @@ pub const ALL: &[Technique] = &[
     technique(
         "blend-towards",
         "not in the paper",
-        "technique::blend_towards",
+        "threshold::stage::blend_towards",
         "Noise fades in from a threshold of the artist's.",
     )
     .seen("fade-in", "faded in from 0.25", "fade_in")
@@ -238,7 +232,7 @@ pub const ALL: &[Technique] = &[
     technique(
         "independent-hashes",
         "§7.2.2",
-        "technique::independent",
+        "threshold::stage::independent",
         "Offsets in hash space give independent thresholds for each frame; the average flickers.",
     )
     .seen("temporal-orders", "independent, 8", "independent")
@@ -246,7 +240,7 @@ pub const ALL: &[Technique] = &[
     technique(
         "frame-word",
         "not in the paper",
-        "technique::independent",
+        "threshold::stage::independent",
         "The same by a word that the hash reads.",
     )
     .seen("temporal-orders", "word, 8", "independent")
@@ -254,7 +248,7 @@ pub const ALL: &[Technique] = &[
     technique(
         "stratified-frames",
         "§7.2.3, Eq. 6",
-        "threshold::stratify",
+        "threshold::stage::stratify",
         "One hash gives n frames a stratum each; in ascending order the average flickers.",
     )
     .seen("temporal-orders", "ascending, 8", "temporal")
@@ -262,18 +256,18 @@ pub const ALL: &[Technique] = &[
     technique(
         "alternating-order",
         "§7.2.3",
-        "technique::order",
+        "threshold::stage::order",
         "Every other threshold is below one half, and the average flickers less.",
     )
     .seen("temporal-orders", "alternating, 8", "temporal")
     .tested("the_orders_flicker_as_ranked"),
-    technique("van-der-corput", "§7.2.3", "technique::order", "A low-discrepancy order is better still.")
+    technique("van-der-corput", "§7.2.3", "threshold::stage::order", "A low-discrepancy order is better still.")
         .seen("temporal-orders", "van-der-corput, 8", "temporal")
         .tested("temporal.van_der_corput"),
     technique(
         "phase-rotated",
         "not in the paper",
-        "technique::order",
+        "threshold::stage::order",
         "The order is entered at the stratum of the hash, and alternates for every hash value.",
     )
     .seen("temporal-orders", "phase-rotated, 8", "temporal")
@@ -321,7 +315,7 @@ pub const ALL: &[Technique] = &[
     technique(
         "alpha-to-coverage",
         "§8, Eq. 7",
-        "technique::mask",
+        "threshold::stage::mask",
         "n regular tests in a pixel; layers of equal alpha cover the same samples.",
     )
     .seen("vanishing-foliage", "alpha to coverage", "alpha_to_coverage")
@@ -329,7 +323,7 @@ pub const ALL: &[Technique] = &[
     technique(
         "hardware-alpha-to-coverage",
         "§3, §8",
-        "technique::mask",
+        "threshold::stage::mask",
         "floor(n alpha) samples in a fixed pattern.",
     )
     .seen("multisample", "as hardware", "alpha_to_coverage")
@@ -337,7 +331,7 @@ pub const ALL: &[Technique] = &[
     technique(
         "jittered-alpha-to-coverage",
         "§8, Eq. 8",
-        "technique::mask",
+        "threshold::stage::mask",
         "Thresholds jittered within their strata; layers still share samples.",
     )
     .seen("checkerboard", "isotropic to coverage", "alpha_to_coverage")
@@ -345,7 +339,7 @@ pub const ALL: &[Technique] = &[
     technique(
         "permuted-alpha-to-coverage",
         "§8, Eq. 9",
-        "technique::mask",
+        "threshold::stage::mask",
         "Strata permuted for each fragment; layers multiply.",
     )
     .seen("vanishing-foliage", "hashed to coverage", "alpha_to_coverage")
@@ -353,7 +347,7 @@ pub const ALL: &[Technique] = &[
     technique(
         "random-masks",
         "§3 (Enderton et al. 2010)",
-        "technique::mask",
+        "threshold::stage::mask",
         "Random sets of samples; layers multiply.",
     )
     .seen("layers", "hashed, random", "alpha_to_coverage")
@@ -361,7 +355,7 @@ pub const ALL: &[Technique] = &[
     technique(
         "pixel-masks",
         "Humus 2009",
-        "technique::mask",
+        "threshold::stage::mask",
         "A pseudo-random value of the pixel breaks up the repetitive dither of hardware.",
     )
     .seen("pixel-masks", "by pixel", "alpha_to_coverage")
@@ -369,7 +363,7 @@ pub const ALL: &[Technique] = &[
     technique(
         "screen-door",
         "§3, §8.1",
-        "technique::screen_door",
+        "threshold::stage::screen_door",
         "Samples lie in several pixels; layers and tiles repeat.",
     )
     .seen("screen-door", "fixed mask", "screen_door")
@@ -377,7 +371,7 @@ pub const ALL: &[Technique] = &[
     technique(
         "random-screen-door",
         "§3 (Mulder et al. 1998)",
-        "technique::screen_door",
+        "threshold::stage::screen_door",
         "Even a random mask correlates layers.",
     )
     .seen("screen-door", "random mask", "screen_door")
@@ -385,7 +379,7 @@ pub const ALL: &[Technique] = &[
     technique(
         "hashed-screen-door",
         "§8.1",
-        "technique::screen_door",
+        "threshold::stage::screen_door",
         "Permuted for each tile and layer, layers multiply.",
     )
     .seen("screen-door", "hashed masks", "screen_door")
@@ -393,7 +387,7 @@ pub const ALL: &[Technique] = &[
     technique(
         "stipple",
         "Ols 2009",
-        "technique::stipple",
+        "threshold::stage::stipple",
         "One of four pixels is left out; only one layer of translucency is possible.",
     )
     .seen("stipple", "high density", "stipple")
@@ -454,13 +448,13 @@ mod tests {
     #[test]
     fn every_file_of_this_wing_is_listed() {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/technique");
-        for wing in ["", "remedies"] {
+        for wing in ["", "prior_work"] {
             for entry in std::fs::read_dir(folder.join(wing)).expect("the folder exists") {
                 let path = entry.expect("an entry").path();
                 let name = path.file_stem().and_then(|stem| stem.to_str()).unwrap_or_default();
                 let listed = |t: &Technique| t.module.rsplit("::").next() == Some(name);
                 assert!(
-                    ["mod", "remedies"].contains(&name) || ALL.iter().any(listed),
+                    ["mod", "prior_work"].contains(&name) || ALL.iter().any(listed),
                     "{} is not listed",
                     path.display()
                 );

@@ -1,6 +1,6 @@
 //! Multisampling: geometry is tested at several places of a pixel, alpha at one (§1, §2, §8).
 
-use super::order::radical_rank;
+use crate::threshold::stage::order::radical_rank;
 use core::num::NonZeroU32;
 
 /// Returns the place of sample `i` of `n`, from the centre of the pixel, in pixels along screen x and y; each component is

@@ -1,6 +1,5 @@
 //! Hashed ambient occlusion: one ray a pixel, in a direction that stays with the geometry (§9, Fig. 8).
 
-use super::independent::ByFrame;
 use crate::threshold::footprint::Footprint;
 use crate::threshold::hash::integer::murmur3;
 use crate::threshold::hash::offset::Offset;
@@ -9,6 +8,7 @@ use crate::threshold::hash::{Cell, Hash};
 use crate::threshold::hashed::HashedAlpha;
 use crate::threshold::real::Real;
 use crate::threshold::robust::{InvalidInput, Robust};
+use crate::threshold::stage::independent::ByFrame;
 use crate::threshold::two_scale::Variant;
 use glam::DVec3;
 use rand::SeedableRng;

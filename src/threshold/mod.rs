@@ -10,7 +10,7 @@
 //! | [`cdf`] | Eq. 2 |
 //! | [`hashed`], [`stochastic`], [`fixed`] | where the threshold comes from: §5-6, §4, §1 |
 //! | [`robust`] | Listings 1 and 2 with every repair (not in the paper); [`normal`] serves its copula join |
-//! | [`fade_in`], [`stratify`], [`coverage`] | what follows the hash: §7.1, §7.2.3, §8 |
+//! | [`stage`] | what follows the hash: §7.1, §7.2.2, §7.2.3, §8 |
 //! | [`batch`] | the same thresholds by the thousand, in the vector instructions of the machine (not in the paper) |
 //! | [`stability`] | closed forms for how often a threshold changes under motion (not in the paper) |
 //!
@@ -18,18 +18,16 @@
 
 pub mod batch;
 pub mod cdf;
-pub mod coverage;
 pub mod emulated;
-pub mod fade_in;
 pub mod fixed;
 pub mod footprint;
 pub mod hash;
 pub mod hashed;
-pub mod named;
+pub mod names;
 pub mod normal;
 pub mod real;
 pub mod robust;
 pub mod stability;
+pub mod stage;
 pub mod stochastic;
-pub mod stratify;
 pub mod two_scale;

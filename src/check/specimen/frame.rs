@@ -6,7 +6,7 @@ use crate::check::Subject;
 use crate::check::subject::Precision;
 use crate::scene::Fragment;
 use crate::threshold::footprint::Footprint;
-use crate::threshold::stratify::{alternating, alternating_literal, stratified};
+use crate::threshold::stage::stratify::{alternating, alternating_literal, stratified};
 use crate::threshold::two_scale::Variant;
 use core::num::NonZeroU32;
 use glam::DVec3;

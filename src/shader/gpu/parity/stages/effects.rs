@@ -4,12 +4,11 @@ use super::super::input::{self, number, numbers};
 use super::super::{Class, Stage};
 use super::{bounded, isotropic, stable};
 use crate::shader::assemble::{Coverage, FadeIn, ScreenDoor, ShaderOptions, Source, Strata, Stratify};
-use crate::technique::order::{Order, radical_inverse};
-use crate::technique::stipple::{self, Density};
-use crate::technique::{mask, screen_door};
 use crate::threshold::cdf::CdfForm;
 use crate::threshold::robust::Join;
-use crate::threshold::{coverage, fade_in, stratify};
+use crate::threshold::stage::order::{Order, radical_inverse};
+use crate::threshold::stage::stipple::{self, Density};
+use crate::threshold::stage::{coverage, fade_in, mask, screen_door, stratify};
 use core::num::{NonZeroU16, NonZeroU32};
 
 const FRAMES: NonZeroU16 = NonZeroU16::new(8).unwrap();

@@ -11,10 +11,10 @@ use hashed_alpha::check::Draw;
 use hashed_alpha::check::coordinates::{self, Coordinates, Stated, TableCell};
 use hashed_alpha::check::subject::Precision::F32;
 use hashed_alpha::threshold::cdf::CdfForm;
-use hashed_alpha::threshold::coverage::regular;
 use hashed_alpha::threshold::hash::sine::hash_3d;
 use hashed_alpha::threshold::hash::{Cell, Hash, HashKind};
 use hashed_alpha::threshold::hashed::HashedAlpha;
+use hashed_alpha::threshold::stage::coverage::regular;
 use hashed_alpha::threshold::two_scale::Variant::Isotropic;
 use std::sync::OnceLock;
 
@@ -290,8 +290,9 @@ fn outcome_of_frames() -> f64 {
         .flat_map(|i| (1..10).map(move |a| (i, f64::from(a) / 10.0)))
         .map(|(i, alpha)| {
             let chi = f64::from(HashKind::Mm4.hash(&cell(i)));
-            let kept =
-                (0..8).filter(|&f| alpha >= hashed_alpha::threshold::stratify::stratified(chi, f, n)).count();
+            let kept = (0..8)
+                .filter(|&f| alpha >= hashed_alpha::threshold::stage::stratify::stratified(chi, f, n))
+                .count();
             (kept as f64 / 8.0 - alpha).abs()
         })
         .fold(0.0, f64::max)

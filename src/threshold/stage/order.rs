@@ -1,8 +1,8 @@
 //! Which stratum of a threshold a frame takes: the orders of temporal stratification (§7.2.3).
 
-use crate::threshold::fade_in::clamp_last;
+use super::clamp::clamp_last;
+use super::stratify::{alternating, alternating_literal, stratified, wrap};
 use crate::threshold::real::Real;
-use crate::threshold::stratify::{alternating, alternating_literal, stratified, wrap};
 use core::num::NonZeroU32;
 
 /// How n strata are spread over n frames.

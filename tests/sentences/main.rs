@@ -1,6 +1,6 @@
-//! The sentences of the five sources, each measured: `docs/claims.md` is written by this test and checked by it.
+//! The sentences of the five sources, each measured: `docs/sentences.md` is written by this test and checked by it.
 //!
-//! One trial a row: it measures again and compares with the committed line. `HASHED_ALPHA_BLESS=1 cargo test --test claims`
+//! One trial a row: it measures again and compares with the committed line. `HASHED_ALPHA_BLESS=1 cargo test --test sentences`
 //! writes the page anew and tries nothing.
 
 mod beyond;
@@ -28,7 +28,7 @@ use std::collections::HashSet;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-const HOW_TO_BLESS: &str = "HASHED_ALPHA_BLESS=1 cargo test --test claims";
+const HOW_TO_BLESS: &str = "HASHED_ALPHA_BLESS=1 cargo test --test sentences";
 
 /// The sources in the order of the page.
 fn sources() -> Vec<Source> {
@@ -50,7 +50,7 @@ fn sources() -> Vec<Source> {
 }
 
 fn page() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/claims.md")
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/sentences.md")
 }
 
 /// Measures every row.
@@ -69,7 +69,7 @@ fn page_of(lines: &[String]) -> String {
         "# The sentences of the sources, measured\n\nEach checkable sentence, in our words, with what we measure and on how \
          many samples. *Confirmed*: it holds as it\nstands. *Refined*: it holds under a condition that it does not state, or \
          for another reason; the figures say which.\n*Refuted*: it does not hold. Of {} sentences {confirmed} are confirmed, \
-         {refined} refined, {refuted} refuted.\n\n`cargo test --test claims -- NAME` measures the row of that name again; \
+         {refined} refined, {refuted} refuted.\n\n`cargo test --test sentences -- NAME` measures the row of that name again; \
          `{HOW_TO_BLESS}` writes\nthis page. Seeds are fixed, so the figures are the same on every machine; no time is measured \
          for them.\n",
         lines.len(),
@@ -101,7 +101,8 @@ fn unchecked() -> String {
 }
 
 fn committed() -> Result<String, Failed> {
-    std::fs::read_to_string(page()).map_err(|error| format!("docs/claims.md: {error}; {HOW_TO_BLESS}").into())
+    std::fs::read_to_string(page())
+        .map_err(|error| format!("docs/sentences.md: {error}; {HOW_TO_BLESS}").into())
 }
 
 /// Measures one row again.
@@ -110,7 +111,7 @@ fn is_as_committed(row: &Row) -> Result<(), Failed> {
     if committed()?.lines().any(|line| line == measured) {
         Ok(())
     } else {
-        Err(format!("docs/claims.md does not have the line\n{measured}\n{HOW_TO_BLESS}").into())
+        Err(format!("docs/sentences.md does not have the line\n{measured}\n{HOW_TO_BLESS}").into())
     }
 }
 

@@ -8,11 +8,11 @@ use hashed_alpha::stats::correlation::pearson;
 use hashed_alpha::technique::history::flicker_range;
 use hashed_alpha::technique::jitter::camera_jitter;
 use hashed_alpha::technique::noise_scale::noise_scale;
-use hashed_alpha::technique::order::Order;
 use hashed_alpha::threshold::hash::offset::Offset;
 use hashed_alpha::threshold::hash::sine::Sine;
 use hashed_alpha::threshold::hash::{Cell, Hash};
-use hashed_alpha::threshold::stratify::{alternating_literal, stratified_literal};
+use hashed_alpha::threshold::stage::order::Order;
+use hashed_alpha::threshold::stage::stratify::{alternating_literal, stratified_literal};
 use hashed_alpha::threshold::two_scale::Variant::Isotropic;
 
 pub const ROWS: &[Row] = &[

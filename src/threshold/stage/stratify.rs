@@ -1,7 +1,7 @@
 //! One hash, n frames: thresholds that divide [0, 1) among the frames of temporal antialiasing (§7.2.3).
 
-use super::fade_in::clamp_last;
-use super::real::Real;
+use super::clamp::clamp_last;
+use crate::threshold::real::Real;
 use core::num::NonZeroU32;
 
 /// Returns the threshold of frame `i` of `n`: `fract(chi + i / n)`. Eq. 6.

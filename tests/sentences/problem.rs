@@ -6,12 +6,12 @@ use crate::row::{Measured, Row, judge};
 use core::num::NonZeroU32;
 use hashed_alpha::technique::conservative::{corrected, covers_centre, sub_pixel_coverage};
 use hashed_alpha::technique::jitter::camera_jitter;
-use hashed_alpha::technique::remedies::Level;
-use hashed_alpha::technique::remedies::finest_level::{limited, stride};
-use hashed_alpha::technique::remedies::level_threshold::{level_threshold, texel_thresholds};
-use hashed_alpha::technique::remedies::scaled_alpha::{alpha_scale, scaled, scaled_by_texel};
-use hashed_alpha::technique::remedies::supersampling::{side_needed, supersampled};
-use hashed_alpha::technique::remedies::test_then_blend::{Layer, naive, sorted, test_then_blend};
+use hashed_alpha::technique::prior_work::Level;
+use hashed_alpha::technique::prior_work::finest_level::{limited, stride};
+use hashed_alpha::technique::prior_work::level_threshold::{level_threshold, texel_thresholds};
+use hashed_alpha::technique::prior_work::scaled_alpha::{alpha_scale, scaled, scaled_by_texel};
+use hashed_alpha::technique::prior_work::supersampling::{side_needed, supersampled};
+use hashed_alpha::technique::prior_work::test_then_blend::{Layer, naive, sorted, test_then_blend};
 
 pub const ROWS: &[Row] = &[
     Row {

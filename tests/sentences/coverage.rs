@@ -4,11 +4,11 @@ use crate::maps::leaves;
 use crate::measure::{list, mean, n, percent, rms, share, value};
 use crate::row::{Measured, Row, judge};
 use core::num::NonZeroU32;
-use hashed_alpha::technique::mask::{self, Mask};
 use hashed_alpha::technique::premultiplied::{Rgba, divide, filtered, premultiply};
-use hashed_alpha::technique::screen_door;
-use hashed_alpha::threshold::coverage::{decorrelated_literal, regular};
 use hashed_alpha::threshold::hash::integer::murmur3;
+use hashed_alpha::threshold::stage::coverage::{decorrelated_literal, regular};
+use hashed_alpha::threshold::stage::mask::{self, Mask};
+use hashed_alpha::threshold::stage::screen_door;
 
 pub const ROWS: &[Row] = &[
     Row {

@@ -2,7 +2,7 @@
 
 use crate::measure::{CHIS, chis, list, mean, percent, share, visible};
 use crate::row::{Measured, Row, judge};
-use hashed_alpha::threshold::fade_in::{anisotropy, anisotropy_literal, blend, fade_in};
+use hashed_alpha::threshold::stage::fade_in::{anisotropy, anisotropy_literal, blend, fade_in};
 
 pub const ROWS: &[Row] = &[
     Row {

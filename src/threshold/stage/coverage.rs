@@ -1,7 +1,7 @@
 //! n thresholds in one fragment: alpha-to-coverage as n alpha tests (§8, Eqs. 7 to 9).
 
-use super::fade_in::clamp_last;
-use super::real::Real;
+use super::clamp::clamp_last;
+use crate::threshold::real::Real;
 use core::num::NonZeroU32;
 
 /// Returns the threshold of sample `i` of `n` under the fixed dither: `(i + 1/2) / n`; `i` counts modulo `n`. Eq. 7.

@@ -5,7 +5,7 @@ use crate::row::{Measured, Row, judge};
 use core::num::NonZeroU32;
 use hashed_alpha::stats::seed::rng;
 use hashed_alpha::technique::jitter::camera_jitter;
-use hashed_alpha::threshold::fade_in::{blend_literal, fade_in_literal};
+use hashed_alpha::threshold::stage::fade_in::{blend_literal, fade_in_literal};
 use hashed_alpha::threshold::stochastic;
 use hashed_alpha::threshold::two_scale::Variant::Isotropic;
 

@@ -3,11 +3,11 @@
 //! Bit i of a mask is sample i; `n` is at most 32, and samples beyond that are left out. Alpha 0 covers nothing and
 //! alpha 1 every sample, whatever the random numbers, in every function that is not called literal.
 
-use crate::threshold::coverage::{decorrelated, decorrelated_literal, jittered, jittered_literal, regular};
+use super::coverage::{decorrelated, decorrelated_literal, jittered, jittered_literal, regular};
+use super::stratify::wrap;
 use crate::threshold::hash::integer::{murmur3, pcg};
 use crate::threshold::hash::open_lattice;
 use crate::threshold::real::Real;
-use crate::threshold::stratify::wrap;
 use core::num::NonZeroU32;
 
 /// The samples that a fragment covers.

@@ -3,9 +3,9 @@
 use crate::measure::{list, mean, percent, rms, share, value};
 use crate::row::{Measured, Row, judge};
 use core::num::NonZeroU32;
-use hashed_alpha::technique::mask;
-use hashed_alpha::technique::screen_door;
-use hashed_alpha::technique::stipple::{Density, keeps, keeps_in_words, keeps_literal};
+use hashed_alpha::threshold::stage::mask;
+use hashed_alpha::threshold::stage::screen_door;
+use hashed_alpha::threshold::stage::stipple::{Density, keeps, keeps_in_words, keeps_literal};
 
 pub const HUMUS: &[Row] = &[
     Row {

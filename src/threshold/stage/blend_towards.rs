@@ -1,12 +1,12 @@
 //! Fading the noise in from a threshold of the artist's in place of 1/2 (§7.1 with another constant).
 
-use crate::threshold::fade_in::clamp_last;
+use super::clamp::clamp_last;
 use crate::threshold::real::Real;
 
 /// Blends a hashed threshold in (0, 1] with the authored one: exactly `authored` at `b` = 0 and `threshold` at `b` = 1,
 /// in [2^-24, 1]. A `b` outside [0, 1] counts as its nearer end, NaN as 0.
 ///
-/// With `authored` = 1/2 it is [`fade_in`](crate::threshold::fade_in::fade_in), Eq. 4. Not in the paper, whose slides
+/// With `authored` = 1/2 it is [`fade_in`](crate::threshold::stage::fade_in::fade_in), Eq. 4. Not in the paper, whose slides
 /// compare with thresholds that artists set for each level.
 #[must_use]
 pub fn blend_towards<R: Real>(authored: R, threshold: R, b: R) -> R {
@@ -29,8 +29,8 @@ pub fn kept_share(alpha: f64, authored: f64, b: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::fade_in::fade_in;
     use super::*;
-    use crate::threshold::fade_in::fade_in;
 
     #[test]
     fn one_half_gives_equation_4() {

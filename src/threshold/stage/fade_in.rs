@@ -3,19 +3,12 @@
 //! While the noise fades in, fragments with alpha below `(1 - b) / 2` vanish as they do under the traditional test:
 //! Eq. 4 keeps a fragment with probability `clamp((alpha - 1/2) / b + 1/2, 0, 1)`.
 
-use super::fixed::FIXED_THRESHOLD;
-use super::real::Real;
-use super::robust::SMALLEST_ROBUST_THRESHOLD;
+use super::clamp::clamp_last;
+use crate::threshold::fixed::FIXED_THRESHOLD;
+use crate::threshold::real::Real;
 
 /// The anisotropy of texture filtering that hardware goes to; beyond it no finer level is read.
 pub const GREATEST_ANISOTROPY: f64 = 16.0;
-
-/// Brings a threshold into [2^-24, 1]: the last step after any of the transformations of §7 and §8, so that alpha 0
-/// never passes and alpha 1 always does. NaN stays NaN. Not in the paper, which clamps before them.
-#[must_use]
-pub fn clamp_last<R: Real>(threshold: R) -> R {
-    Real::clamp(threshold, R::from_f64(SMALLEST_ROBUST_THRESHOLD), R::from_f64(1.0))
-}
 
 /// Returns the share of noise at a level of detail: 0 up to level 0, `(lod / n)^2` below `n`, 1 from `n` on. Eq. 5.
 ///

@@ -1,5 +1,4 @@
 //! A user's own shader: what is taken, what is refused and with which words, and that nothing makes the reader panic.
-#![cfg(feature = "shader")]
 
 use hashed_alpha::scene::fragment::Fragment;
 use hashed_alpha::shader::assemble::ShaderOptions;

@@ -15,8 +15,8 @@ use hashed_alpha::threshold::hash::sine::hash_2d;
 use hashed_alpha::threshold::hash::{Cell, Hash, HashKind};
 use hashed_alpha::threshold::real::Real;
 use hashed_alpha::threshold::robust::{Join, Robust};
+use hashed_alpha::threshold::stage::stratify::stratified_literal;
 use hashed_alpha::threshold::stochastic;
-use hashed_alpha::threshold::stratify::stratified_literal;
 use hashed_alpha::threshold::two_scale::Variant::{self, Anisotropic, Isotropic};
 
 pub const ROWS: &[Row] = &[

@@ -1,7 +1,7 @@
 //! Alpha maps and their levels.
 
 use crate::measure::value;
-use hashed_alpha::technique::remedies::Level;
+use hashed_alpha::technique::prior_work::Level;
 
 pub struct Map {
     pub texels: Vec<f32>,

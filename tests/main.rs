@@ -1,0 +1,43 @@
+//! The tests that run in one process. One program is linked once; what needs a process or a list of trials of its own
+//! is a program beside it (`Cargo.toml`).
+//!
+//! `cargo test --test main golden::` runs the tests of one file.
+
+mod budget;
+mod exact;
+
+mod architecture;
+mod batch;
+mod calibration;
+mod compare;
+mod coordinates;
+mod emulated;
+mod exhaustive;
+mod golden;
+mod names;
+mod oracle;
+mod prop;
+mod references;
+mod severity;
+mod threads;
+
+#[cfg(feature = "shader")]
+mod interpreter;
+#[cfg(feature = "shader")]
+mod own_shader;
+#[cfg(feature = "shader")]
+mod shader_parity;
+#[cfg(feature = "shader")]
+mod shader_text;
+
+#[cfg(feature = "render")]
+mod render;
+#[cfg(feature = "render")]
+mod render_assets;
+#[cfg(feature = "render")]
+mod scenes_page;
+#[cfg(feature = "render")]
+mod techniques;
+
+#[cfg(feature = "cli")]
+mod cli;
