@@ -8,19 +8,20 @@
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use hashed_alpha::cost::techniques::{take, without};
-use hashed_alpha::render::adjust::textures;
-use hashed_alpha::render::effects::Effects;
-use hashed_alpha::render::file::{self, SceneFile, Takes};
-use hashed_alpha::render::fragments::{Fragments, Needs};
+use hashed_alpha::render::draw::adjust::textures;
+use hashed_alpha::render::draw::fragments::Space;
+use hashed_alpha::render::draw::fragments::{Fragments, Needs};
+use hashed_alpha::render::draw::frame::frame;
+use hashed_alpha::render::draw::plan::plan;
+use hashed_alpha::render::draw::rasterise::{Screen, TILE};
+use hashed_alpha::render::draw::shot::shots;
+use hashed_alpha::render::draw::texture::{Access, Texture};
+use hashed_alpha::render::effect::Effects;
 use hashed_alpha::render::gallery;
-use hashed_alpha::render::picture::{LEAF, Picture, SKY};
-use hashed_alpha::render::plan::plan;
-use hashed_alpha::render::prepare::{Scene, prepare};
-use hashed_alpha::render::rasterise::{Screen, TILE};
-use hashed_alpha::render::run::frame;
-use hashed_alpha::render::study::shots;
-use hashed_alpha::render::tables::Space;
-use hashed_alpha::render::texture::{Access, Texture};
+use hashed_alpha::render::measure::picture::{LEAF, Picture, SKY};
+use hashed_alpha::render::scene_file::load::{Scene, prepare};
+use hashed_alpha::render::scene_file::read;
+use hashed_alpha::render::scene_file::schema::{SceneFile, Takes};
 use hashed_alpha::technique::{ALL, TRUTH};
 use hashed_alpha::threshold::batch::Batch;
 use hashed_alpha::threshold::cdf::CdfForm;
@@ -45,7 +46,7 @@ const TAKES: [(&str, &str); 7] = [
 
 fn fence() -> Scene {
     let entry = gallery::find("grazing-fence").expect("a scene of the gallery");
-    let scene = file::read(entry.text, entry.name).expect("a sound scene");
+    let scene = read::read(entry.text, entry.name).expect("a sound scene");
     prepare(SceneFile { resolution: [1920, 1080], ..scene }, Path::new("")).expect("built-in textures")
 }
 

@@ -7,7 +7,7 @@ use criterion::{
     BatchSize, BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main, measurement::WallTime,
 };
 use hashed_alpha::scene::Scene;
-use hashed_alpha::stats::{anderson_darling, binomial, chi_square, ecdf, spectrum, two_sample};
+use hashed_alpha::stats::{binomial, chi_square, ecdf, spectrum, two_sample};
 use hashed_alpha::threshold::cdf::CdfForm;
 use hashed_alpha::threshold::footprint::Footprint;
 use hashed_alpha::threshold::hash::{Cell, Hash, HashKind, sine};
@@ -86,13 +86,6 @@ fn statistics(group: &mut BenchmarkGroup<'_, WallTime>) {
     group.bench_function("chi_square", |b| b.iter(|| chi_square::uniform(black_box(&counts))));
     group.bench_function("kolmogorov_smirnov", |b| {
         b.iter_batched_ref(|| values.clone(), |v| ecdf::kolmogorov_smirnov(v), BatchSize::LargeInput);
-    });
-    group.bench_function("anderson_darling", |b| {
-        b.iter_batched_ref(
-            || values.clone(),
-            |v| anderson_darling::anderson_darling(v),
-            BatchSize::LargeInput,
-        );
     });
     group.bench_function("two_sample", |b| {
         b.iter_batched_ref(

@@ -16,7 +16,9 @@
 //! Where to begin: [`threshold::robust::Robust`] for a threshold to use, [`threshold::hashed::HashedAlpha`] for the
 //! paper's to the letter, [`check::run`] for a verdict.
 
+#[cfg(feature = "check")]
 pub mod check;
+#[cfg(feature = "check")]
 pub mod cost;
 #[cfg(feature = "render")]
 pub mod render;
@@ -25,9 +27,19 @@ pub mod report;
 pub mod scene;
 #[cfg(feature = "shader")]
 pub mod shader;
+#[cfg(feature = "check")]
 pub mod stats;
+#[cfg(feature = "check")]
 pub mod technique;
 pub mod threshold;
+
+#[cfg(feature = "check")]
+pub use check::{Budget, Subject, Suite};
+pub use glam;
+pub use threshold::footprint::Footprint;
+pub use threshold::hashed::HashedAlpha;
+pub use threshold::robust::Robust;
+pub use threshold::two_scale::Variant;
 
 /// The examples of the README, so that they are compiled and run.
 #[cfg(doctest)]

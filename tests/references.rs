@@ -2,9 +2,7 @@
 //! `references/generate.py`.
 
 use hashed_alpha::stats::chi_square::ChiSquare;
-use hashed_alpha::stats::{
-    anderson_darling, beta, binomial, collisions, ecdf, fisher_g, normal, power, two_sample,
-};
+use hashed_alpha::stats::{beta, binomial, collisions, ecdf, fisher_g, normal, power, two_sample};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
@@ -35,7 +33,6 @@ fn ours(function: &str, parameters: &[&str]) -> f64 {
         "ecdf.upper_p" => ecdf::upper_p(x(0), k(1)),
         "ecdf.limit_upper_p" => ecdf::limit_upper_p(x(0)),
         "two_sample.upper_p" => two_sample::upper_p(k(0), [k(1), k(2)]),
-        "anderson_darling.upper_p" => anderson_darling::upper_p(x(0)),
         "fisher_g.upper_p" => fisher_g::upper_p(x(0), k(1)),
         "collisions.lower" => collisions::collisions(k(0), k(1), k(2)).tails.lower,
         "collisions.upper" => collisions::collisions(k(0), k(1), k(2)).tails.upper,

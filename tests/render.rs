@@ -1,13 +1,15 @@
 //! Scenes: the gallery shows what it must, plans cost what they predict, and an absent table leaves no trace.
 
-use hashed_alpha::render::adjust::textures;
-use hashed_alpha::render::effects::{self, ALL, Effects};
-use hashed_alpha::render::file::{self, SceneFile, Takes};
+use hashed_alpha::render::draw::adjust::textures;
+use hashed_alpha::render::draw::plan::{Census, Plan, plan};
+use hashed_alpha::render::effect;
+use hashed_alpha::render::effect::stage::hashes;
+use hashed_alpha::render::effect::{ALL, Effects};
 use hashed_alpha::render::gallery::GALLERY;
-use hashed_alpha::render::plan::{Census, Plan, plan};
-use hashed_alpha::render::prepare::{Scene, prepare};
-use hashed_alpha::render::stage::hashes;
-use hashed_alpha::render::study::{Study, study};
+use hashed_alpha::render::measure::study::{Study, study};
+use hashed_alpha::render::scene_file::load::{Scene, prepare};
+use hashed_alpha::render::scene_file::read;
+use hashed_alpha::render::scene_file::schema::{SceneFile, Takes};
 use hashed_alpha::threshold::batch::Model;
 use hashed_alpha::threshold::cdf::CdfForm;
 use hashed_alpha::threshold::footprint::Footprint;
@@ -22,7 +24,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 fn read(name: &str) -> SceneFile {
     let entry = GALLERY.iter().find(|entry| entry.name == name).expect("a scene of the gallery");
-    file::read(entry.text, name).unwrap_or_else(|error| panic!("{error}"))
+    read::read(entry.text, name).unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn ready(file: SceneFile) -> Scene {
@@ -87,7 +89,7 @@ fn takes() -> Vec<(SceneFile, Effects)> {
     ] {
         let file = small("vanishing-foliage");
         let set: Effects = toml::from_str(table).expect("known effects");
-        assert_eq!(effects::check(&set), Ok(()), "{table}");
+        assert_eq!(effect::check(&set), Ok(()), "{table}");
         takes.push((file, set));
     }
     takes
@@ -128,13 +130,13 @@ fn surfaces_of_every_kind_are_seen() {
              [[texture]]\nname = 'leaf'\nconstant = {{ alpha = 1.0 }}\n[[surface]]\n{texture}\n{surface}\n"
         );
         let coverage = |text: &str| {
-            let file = file::read(text, "surface.toml").unwrap_or_else(|error| panic!("{error}"));
+            let file = read::read(text, "surface.toml").unwrap_or_else(|error| panic!("{error}"));
             drawn(&ready(file)).takes[0].metrics["coverage"]
         };
         assert!((0.005..0.9).contains(&coverage(&text)), "{surface}: {}", coverage(&text));
         let kind = surface.split(' ').next().expect("a word");
         let wrong = text.replace(&format!("\n{kind} ="), &format!("\n{kind}x ="));
-        let error = file::read(&wrong, "surface.toml").expect_err("no such surface").to_string();
+        let error = read::read(&wrong, "surface.toml").expect_err("no such surface").to_string();
         assert!(error.contains(&format!("`{kind}x`. Did you mean `{kind}`?")), "{error}");
     }
 }
@@ -148,7 +150,7 @@ fn a_checkerboard_is_a_plane_with_squares() {
         [[texture]]\nname = 'board'\nwrap = 'repeat'\nfilter = 'anisotropic'\ncheckerboard = { squares = 8 }\n\
         [[surface]]\ntexture = 'board'\nposition = [0.0, 0.013, 0.0]\nturn = [0.0, 31.0, 0.0]\n\
         plane = { size = [400.0, 400.0], repeat = [100.0, 100.0] }\n";
-    let other = file::read(text, "plane.toml").expect("sound");
+    let other = read::read(text, "plane.toml").expect("sound");
     (plane.texture, plane.surface) = (other.texture, other.surface);
     let small = |file: SceneFile| SceneFile { resolution: [60, 40], expect: Vec::new(), truth: None, ..file };
     let [board, plane] = [board, plane].map(|file| drawn(&ready(small(file))));
@@ -195,7 +197,7 @@ fn an_absent_table_leaves_no_trace() {
         for known in ALL.iter().filter(|known| (known.is_in)(&set)) {
             let mut rest = set.clone();
             (known.remove)(&mut rest);
-            if effects::check(&rest).is_err() {
+            if effect::check(&rest).is_err() {
                 // Something else needs it.
                 continue;
             }
@@ -238,7 +240,7 @@ fn an_absent_table_of_the_scene_is_not_measured() {
         |file: SceneFile| -> Vec<String> { drawn(&ready(file)).takes[0].metrics.keys().cloned().collect() };
     let whole = names(file.clone());
     let still = SceneFile {
-        camera: hashed_alpha::render::view::View { motion: None, ..file.camera.clone() },
+        camera: hashed_alpha::render::draw::view::View { motion: None, ..file.camera.clone() },
         frames: 1.try_into().expect("not zero"),
         ..file.clone()
     };
@@ -271,7 +273,7 @@ fn the_truth_moves_as_the_takes_do() {
         ..file
     };
     let moving = SceneFile {
-        camera: hashed_alpha::render::view::View { motion, ..file.camera.clone() },
+        camera: hashed_alpha::render::draw::view::View { motion, ..file.camera.clone() },
         ..file.clone()
     };
     let error = |file| drawn(&ready(file)).takes[0].metrics["rmse_coverage"];
@@ -497,7 +499,7 @@ fn chosen(present: u64, order: u64, words: [u32; 3]) -> Effects {
             .map(|other| table(other.name, words))
             .collect();
         let more: Effects = toml::from_str(&text).expect("known effects");
-        if effects::check(&more).is_ok() {
+        if effect::check(&more).is_ok() {
             set = more;
         }
     }
@@ -564,7 +566,7 @@ fn a_scene_that_calls_for_nothing_gets_the_plain_alpha_test() {
             "name = 'card'\neffects = 'auto'\nresolution = [120, 90]\n[camera]\neye = [0.1, 0.2, {distance}]\ntarget = [0.0, 0.0, 0.0]\n\
              [[texture]]\nname = 'leaf'\nleaves = {{}}\n[[surface]]\ntexture = 'leaf'\ncard = {{ size = [1.0, 1.0] }}\n"
         );
-        drawn(&ready(file::read(&text, "card.toml").expect("sound"))).takes[0].plan.clone()
+        drawn(&ready(read::read(&text, "card.toml").expect("sound"))).takes[0].plan.clone()
     };
     assert_eq!(near(0.5).stages, plan(&Effects::default()).stages);
     assert_eq!(traces(&near(40.0), "robust"), 1);
@@ -575,7 +577,7 @@ fn a_scene_that_calls_for_nothing_gets_the_plain_alpha_test() {
 fn a_cycle_of_frames_closes() {
     let file = small("hair");
     let still = |effects: &str| {
-        let camera = hashed_alpha::render::view::View { motion: None, ..file.camera.clone() };
+        let camera = hashed_alpha::render::draw::view::View { motion: None, ..file.camera.clone() };
         let effects: Effects = toml::from_str(effects).expect("known effects");
         with(&SceneFile { camera, ..file.clone() }, effects)
     };
@@ -593,9 +595,10 @@ fn a_cycle_of_frames_closes() {
             assert_eq!(plan.cycle(), cycle, "{effects}");
             assert!(plan.needs.names().contains(&"place of the pixel, for the threshold"));
             let textures = textures(&scene, plan.textures);
-            let shot = hashed_alpha::render::study::shots(&scene)[0];
-            let picture =
-                |index: u32| hashed_alpha::render::run::frame(&scene, &textures, &plan, &shot, index).picture;
+            let shot = hashed_alpha::render::draw::shot::shots(&scene)[0];
+            let picture = |index: u32| {
+                hashed_alpha::render::draw::frame::frame(&scene, &textures, &plan, &shot, index).picture
+            };
             for index in [1, 5] {
                 let later = picture(index + cycle.unwrap_or(3) as u32);
                 assert_eq!(picture(index) == later, cycle.is_some(), "{effects}: {index}");

@@ -1,7 +1,7 @@
 //! A user's own images and meshes either work or are refused with a message that names the file and the reason.
 
-use hashed_alpha::render::file;
-use hashed_alpha::render::prepare::{Scene, prepare};
+use hashed_alpha::render::scene_file::load::{Scene, prepare};
+use hashed_alpha::render::scene_file::read;
 use image::{DynamicImage, GrayImage, RgbImage, RgbaImage};
 use std::fs;
 use std::path::Path;
@@ -10,7 +10,7 @@ fn scene(folder: &Path, texture: &str, surface: &str) -> Result<Scene, String> {
     let text = format!(
         "name = 's'\n[camera]\neye = [0.0, 0.0, 5.0]\ntarget = [0.0, 0.0, 0.0]\n{texture}\n[[surface]]\n{surface}\n"
     );
-    let file = file::read(&text, "s.toml").expect("a sound scene file");
+    let file = read::read(&text, "s.toml").expect("a sound scene file");
     prepare(file, folder).map_err(|error| {
         let mut message = error.to_string();
         let mut cause = std::error::Error::source(&error);

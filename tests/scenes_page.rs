@@ -1,10 +1,11 @@
 //! `docs/scenes.md` has every key of a scene file, every effect with its keys, every number and every scene of the gallery.
 
-use hashed_alpha::render::effects::{ALL, Effects};
-use hashed_alpha::render::file::{self, SceneFile};
+use hashed_alpha::render::effect::{ALL, Effects};
 use hashed_alpha::render::gallery::GALLERY;
-use hashed_alpha::render::prepare::prepare;
-use hashed_alpha::render::study::study;
+use hashed_alpha::render::measure::study::study;
+use hashed_alpha::render::scene_file::load::prepare;
+use hashed_alpha::render::scene_file::read;
+use hashed_alpha::render::scene_file::schema::SceneFile;
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -109,7 +110,7 @@ fn the_page_has_every_effect_and_its_keys() {
 fn the_page_has_every_number_of_the_gallery() {
     let mut wanted = BTreeSet::new();
     for entry in GALLERY {
-        let file = file::read(entry.text, entry.name).expect("a sound scene");
+        let file = read::read(entry.text, entry.name).expect("a sound scene");
         let regions: Vec<String> = file.region.iter().map(|region| region.name.clone()).collect();
         // The names do not depend on the size of the picture, nor on how many frames there are beyond two.
         let resolution = file.resolution.map(|side| side / 4);
@@ -132,7 +133,7 @@ fn the_page_has_every_number_of_the_gallery() {
 #[test]
 fn the_page_names_the_figure_of_every_scene() {
     for entry in GALLERY {
-        let figure = file::read(entry.text, entry.name).expect("a sound scene").figure;
+        let figure = read::read(entry.text, entry.name).expect("a sound scene").figure;
         let row = format!(
             "| [`{0}`](../src/render/gallery/{0}.toml) | {1} |",
             entry.name,

@@ -2,12 +2,13 @@
 
 use hashed_alpha::cost::Effort;
 use hashed_alpha::cost::techniques::{take, techniques, without};
-use hashed_alpha::render::adjust::textures;
-use hashed_alpha::render::effects::{self, Effects};
-use hashed_alpha::render::file::{SceneFile, Takes};
-use hashed_alpha::render::plan::plan;
-use hashed_alpha::render::prepare::prepare;
-use hashed_alpha::render::study::study;
+use hashed_alpha::render::draw::adjust::textures;
+use hashed_alpha::render::draw::plan::plan;
+use hashed_alpha::render::effect;
+use hashed_alpha::render::effect::Effects;
+use hashed_alpha::render::measure::study::study;
+use hashed_alpha::render::scene_file::load::prepare;
+use hashed_alpha::render::scene_file::schema::{SceneFile, Takes};
 use hashed_alpha::technique::{ALL, TRUTH, Technique};
 use std::collections::HashSet;
 use std::fs;
@@ -51,7 +52,7 @@ fn missing(technique: &Technique, tests: &HashSet<String>) -> Option<String> {
     }
     let priced = match technique.price {
         TRUTH => file.truth.is_some(),
-        table => effects::ALL.iter().any(|known| known.name == table && (known.is_in)(&set)),
+        table => effect::ALL.iter().any(|known| known.name == table && (known.is_in)(&set)),
     };
     (!priced).then(|| format!("no table `{}` in its take", technique.price))
 }
@@ -105,7 +106,7 @@ fn combinations_cost_what_they_predict() {
     ] {
         let (file, set) = take("hair", name).expect("in the gallery");
         for table in tables {
-            let known = effects::ALL.iter().find(|known| known.name == *table).expect("an effect");
+            let known = effect::ALL.iter().find(|known| known.name == *table).expect("an effect");
             assert!((known.is_in)(&set), "{name}: {table}");
         }
         let frames = 3.try_into().expect("not zero");

@@ -4,8 +4,9 @@ use super::args::ExplainArgs;
 use super::failure::Failure;
 use super::render::bar;
 use super::{Ending, output, scene_files};
-use hashed_alpha::render::plan::plan;
-use hashed_alpha::render::study;
+use hashed_alpha::render::draw::plan::plan;
+use hashed_alpha::render::draw::shot::shots;
+use hashed_alpha::render::measure::study;
 use hashed_alpha::report::study::{Planned, write_plans};
 use std::io::Write;
 
@@ -17,8 +18,7 @@ pub fn run(args: &ExplainArgs) -> Result<Ending, Failure> {
         let textures = scene.textures(false);
         let chosen = study::chosen(&scene, &textures);
         let bar = bar(&scene);
-        let pictures =
-            (chosen.len() * study::shots(&scene).len()) as u64 * u64::from(scene.file.frames.get());
+        let pictures = (chosen.len() * shots(&scene).len()) as u64 * u64::from(scene.file.frames.get());
         bar.set_length(pictures);
         let planned: Vec<Planned> = chosen
             .into_iter()

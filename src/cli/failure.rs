@@ -1,7 +1,7 @@
 //! Everything that ends a job early, as one message with the place and the way out.
 
 use super::rows::RowError;
-use hashed_alpha::render::file::FileError;
+use hashed_alpha::render::scene_file::read::FileError;
 use hashed_alpha::report::directory::ReportError;
 use hashed_alpha::shader::own::ShaderError;
 use std::error::Error;
@@ -23,7 +23,7 @@ pub enum Failure {
         /// What the system says.
         source: io::Error,
     },
-    /// A row of the input is not a footprint.
+    /// The rows of the input cannot be read.
     #[error(transparent)]
     Row(#[from] RowError),
     /// The report cannot be written.

@@ -11,7 +11,7 @@
 //! | [`drivers`] | keeps drivers from writing to stderr |
 //! | [`known`] | the TOML list of known findings |
 //! | [`output`] | the two streams: results on stdout, remarks on stderr |
-//! | [`failure`] | everything that ends a job early, as one message |
+//! | [`ending`], [`failure`] | what the exit code says, and everything that ends a job early, as one message |
 //!
 //! What never lives here: mathematics, statistics, the look of a report. Nothing outside this folder prints.
 
@@ -20,6 +20,7 @@ mod check;
 mod compare;
 mod cost;
 mod drivers;
+mod ending;
 mod eval;
 mod explain;
 mod failure;
@@ -36,23 +37,11 @@ mod subjects;
 pub use args::Args;
 
 use args::Verb;
+use ending::Ending;
 use failure::Failure;
 use hashed_alpha::shader::own::READER;
 use std::io::Write;
 use std::process::ExitCode;
-
-/// How a job ended that was not cut short.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Ending {
-    /// Done, and nothing speaks against a claim.
-    Consistent,
-    /// A claim was rejected that should hold.
-    Rejected,
-    /// A mistake in what was typed.
-    Usage,
-    /// There was nothing to judge.
-    NoVerdict,
-}
 
 /// Keeps panics of the readers of shaders off stderr: they become messages with the name of the file.
 pub fn quiet_readers() {

@@ -3,9 +3,9 @@
 use super::args::RenderArgs;
 use super::failure::Failure;
 use super::{Ending, output, scene_files};
-use hashed_alpha::render::picture::{animation, png};
-use hashed_alpha::render::prepare::Scene;
-use hashed_alpha::render::study::{Study, study};
+use hashed_alpha::render::measure::picture::{animation, png};
+use hashed_alpha::render::measure::study::{Study, study};
+use hashed_alpha::render::scene_file::load::Scene;
 use hashed_alpha::report::directory::write_atomically;
 use hashed_alpha::report::study::{distances, json, write_csv, write_table};
 use indicatif::{ProgressBar, ProgressStyle};

@@ -1,6 +1,5 @@
 //! Footprints as comma-separated text, read and written line by line in constant memory.
 
-use super::failure::Failure;
 use hashed_alpha::threshold::footprint::Footprint;
 use hashed_alpha::threshold::real::Real;
 use std::io::{self, BufRead, BufReader, Read, Write};
@@ -15,23 +14,36 @@ const LONGEST_LINE: usize = 1 << 20;
 /// The longest piece of input that a message repeats, in characters.
 const LONGEST_QUOTE: usize = 40;
 
-/// A row that is not a footprint.
+/// Why there are no more rows.
 #[derive(Debug, thiserror::Error)]
-#[error("{place}, line {line}{}: {problem}", column_phrase(*.column))]
-pub struct RowError {
-    /// The name of the input.
-    place: String,
-    /// Number of the line, from 1.
-    line: u64,
-    /// Index into [`COLUMNS`], where one field is to blame.
-    column: Option<usize>,
-    /// What is wrong with it.
-    problem: Problem,
+pub enum RowError {
+    /// The input cannot be read.
+    #[error("cannot read line {line} of {place}")]
+    Input {
+        /// The name of the input.
+        place: String,
+        /// Number of the line, from 1.
+        line: u64,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// A row is not a footprint.
+    #[error("{place}, line {line}{}: {problem}", column_phrase(*.column))]
+    Row {
+        /// The name of the input.
+        place: String,
+        /// Number of the line, from 1.
+        line: u64,
+        /// Index into [`COLUMNS`], where one field is to blame.
+        column: Option<usize>,
+        /// What is wrong with it.
+        problem: Problem,
+    },
 }
 
 /// What can be wrong with a row. Text that was read is shortened and made harmless to a terminal.
 #[derive(Debug, PartialEq, thiserror::Error)]
-enum Problem {
+pub enum Problem {
     #[error("longer than {LONGEST_LINE} bytes; write one footprint a line")]
     TooLong,
     #[error("9 fields are needed, not {found}; write {}", COLUMNS.join(","))]
@@ -75,7 +87,7 @@ impl<I: Read, R: Real> Rows<I, R> {
         self.input.buffer().is_empty()
     }
 
-    fn next_row(&mut self) -> Result<Option<Footprint<R>>, Failure> {
+    fn next_row(&mut self) -> Result<Option<Footprint<R>>, RowError> {
         while self.next_line()? {
             let text = self.line.trim_ascii();
             if text.is_empty() || text.starts_with(b"#") {
@@ -92,15 +104,16 @@ impl<I: Read, R: Real> Rows<I, R> {
     }
 
     /// Reads one line; returns false at the end of the input.
-    fn next_line(&mut self) -> Result<bool, Failure> {
+    fn next_line(&mut self) -> Result<bool, RowError> {
         self.line.clear();
         let limit = LONGEST_LINE as u64 + 1;
         let read = self.input.by_ref().take(limit).read_until(b'\n', &mut self.line);
-        let length = read.map_err(|source| {
-            let place = format!("line {} of {}", self.line_number + 1, self.place);
-            Failure::File { action: "read", place, source }
-        })?;
         self.line_number += 1;
+        let length = read.map_err(|source| RowError::Input {
+            place: self.place.clone(),
+            line: self.line_number,
+            source,
+        })?;
         if length > LONGEST_LINE {
             return Err(self.error(None, Problem::TooLong));
         }
@@ -110,13 +123,13 @@ impl<I: Read, R: Real> Rows<I, R> {
         Ok(length > 0)
     }
 
-    fn error(&self, column: Option<usize>, problem: Problem) -> Failure {
-        RowError { place: self.place.clone(), line: self.line_number, column, problem }.into()
+    fn error(&self, column: Option<usize>, problem: Problem) -> RowError {
+        RowError::Row { place: self.place.clone(), line: self.line_number, column, problem }
     }
 }
 
 impl<I: Read, R: Real> Iterator for Rows<I, R> {
-    type Item = Result<Footprint<R>, Failure>;
+    type Item = Result<Footprint<R>, RowError>;
 
     fn next(&mut self) -> Option<Self::Item> {
         self.next_row().transpose()

@@ -2,9 +2,11 @@
 
 use super::args::SceneArgs;
 use super::failure::{Failure, told};
-use hashed_alpha::render::file::{self, SceneFile};
-use hashed_alpha::render::gallery::{self, GALLERY};
-use hashed_alpha::render::prepare::{Scene, prepare};
+use hashed_alpha::render::gallery;
+use hashed_alpha::render::gallery::GALLERY;
+use hashed_alpha::render::scene_file::load::{Scene, prepare};
+use hashed_alpha::render::scene_file::read;
+use hashed_alpha::render::scene_file::schema::SceneFile;
 use std::borrow::Cow;
 use std::fs;
 use std::path::Path;
@@ -53,21 +55,21 @@ impl Read {
         };
         prepare(file, folder).map_err(|error| {
             let key = error.key();
-            Failure::Scene(file::error_at(&text, &typed, &key, told(&error)))
+            Failure::Scene(read::error_at(&text, &typed, &key, told(&error)))
         })
     }
 }
 
 fn read(typed: &str, args: &SceneArgs) -> Result<Read, Failure> {
     let text = text(typed)?;
-    let file = file::read(&text, typed)?;
+    let file = read::read(&text, typed)?;
     let file = SceneFile {
         resolution: args.resolution.unwrap_or(file.resolution),
         frames: args.frames.unwrap_or(file.frames),
         seed: args.seed.unwrap_or(file.seed),
         ..file
     };
-    file::check_changed(&file).map_err(|message| Failure::Usage(format!("{typed}: {message}")))?;
+    read::check_changed(&file).map_err(|message| Failure::Usage(format!("{typed}: {message}")))?;
     Ok(Read { file, typed: typed.to_owned(), text })
 }
 

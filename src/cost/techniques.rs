@@ -4,14 +4,18 @@
 //! written by hand: a new technique has a price as soon as it names its scene.
 
 use super::Effort;
-use crate::render::adjust::textures;
-use crate::render::effects::{self, Effects};
-use crate::render::file::{self, SceneFile, Takes};
-use crate::render::gallery::{self, GALLERY};
-use crate::render::plan::TextureNeeds;
-use crate::render::prepare::{Scene, prepare};
-use crate::render::study::{shots, study};
-use crate::render::truth;
+use crate::render::draw::adjust::textures;
+use crate::render::draw::reference;
+use crate::render::draw::shot::shots;
+use crate::render::draw::texture::TextureNeeds;
+use crate::render::effect;
+use crate::render::effect::Effects;
+use crate::render::gallery;
+use crate::render::gallery::GALLERY;
+use crate::render::measure::study::study;
+use crate::render::scene_file::load::{Scene, prepare};
+use crate::render::scene_file::read;
+use crate::render::scene_file::schema::{SceneFile, Takes};
 use crate::technique::{ALL, TRUTH, Technique};
 use core::num::NonZeroU32;
 use std::path::Path;
@@ -42,7 +46,7 @@ pub struct FramePrice {
 #[must_use]
 pub fn take(scene: &str, take: &str) -> Option<(SceneFile, Effects)> {
     let entry = gallery::find(scene)?;
-    let file = file::read(entry.text, entry.name).ok()?;
+    let file = read::read(entry.text, entry.name).ok()?;
     let Takes::Sets(sets) = &file.effects else { return None };
     let set = sets.iter().find(|set| set.name.as_deref() == Some(take))?.clone();
     Some((file, set))
@@ -52,8 +56,8 @@ pub fn take(scene: &str, take: &str) -> Option<(SceneFile, Effects)> {
 #[must_use]
 pub fn without(set: &Effects, table: &str) -> Effects {
     let mut rest = set.clone();
-    effects::ALL.iter().filter(|known| known.name == table).for_each(|known| (known.remove)(&mut rest));
-    if effects::check(&rest).is_ok() { rest } else { Effects::default() }
+    effect::ALL.iter().filter(|known| known.name == table).for_each(|known| (known.remove)(&mut rest));
+    if effect::check(&rest).is_ok() { rest } else { Effects::default() }
 }
 
 /// How many steps [`techniques`] and [`frames`] report together.
@@ -85,7 +89,7 @@ pub fn techniques(effort: Effort, done: &dyn Fn()) -> Vec<TechniquePrice> {
 pub fn frames(effort: Effort, done: &dyn Fn()) -> Vec<FramePrice> {
     let table = |text: &str| toml::from_str::<Effects>(text).ok();
     let price = |entry: &'static gallery::Entry| {
-        let file = file::read(entry.text, entry.name).ok()?;
+        let file = read::read(entry.text, entry.name).ok()?;
         let sets = vec![Effects::default(), table("hashed = {}")?, table("stochastic = {}")?];
         let tests = of_sets(&file, sets, effort)?;
         done();
@@ -103,7 +107,7 @@ fn ready(file: &SceneFile, sets: Vec<Effects>, frames: u32) -> Option<Scene> {
         distance: None,
         layers: None,
         expect: Vec::new(),
-        camera: crate::render::view::View { motion: None, ..file.camera.clone() },
+        camera: crate::render::draw::view::View { motion: None, ..file.camera.clone() },
         ..file.clone()
     };
     prepare(file, Path::new("")).ok()
@@ -129,7 +133,7 @@ fn of_truth(file: &SceneFile, effort: Effort) -> Option<f64> {
     let shot = *shots(&scene).first()?;
     let round = |_| {
         let begun = Instant::now();
-        let _ = core::hint::black_box(truth::frame(&scene, &textures, &shot, 0, 1));
+        let _ = core::hint::black_box(reference::frame(&scene, &textures, &shot, 0, 1));
         begun.elapsed().as_secs_f64() * 1e9 / pixels(file)
     };
     (0..effort.pick(1, 15)).map(round).reduce(f64::min)

@@ -35,7 +35,7 @@ pub mod text;
 mod example;
 
 /// What is said of a subject that has no thresholds.
-#[cfg(feature = "plots")]
+#[cfg(feature = "cli")]
 const NO_THRESHOLD: &str = "nearly nothing that it answers is a threshold: NaN, or outside of (0, 1]; see `range`, before \
                             anything else";
 

@@ -1,10 +1,10 @@
 //! Scenes as text: the plan of each take before it runs, and what came out of it.
 
-use crate::render::cost::Cost;
-use crate::render::effects::Effects;
-use crate::render::plan::Plan;
-use crate::render::prepare::Scene;
-use crate::render::study::{Study, Take};
+use crate::render::draw::cost::Cost;
+use crate::render::draw::plan::Plan;
+use crate::render::effect::Effects;
+use crate::render::measure::study::{Study, Take};
+use crate::render::scene_file::load::Scene;
 use crate::report::figure::distance::{Kept, Point, distance};
 use serde::Serialize;
 use std::collections::BTreeMap;

@@ -53,38 +53,6 @@ pub fn collisions(observed: u64, n: u64, urns: u64) -> Collisions {
     Collisions { observed, expected, tails, is_exact }
 }
 
-/// Counts the spacings of values on a circle of `days` that equal another one. Sorts the values.
-///
-/// The last spacing goes round, from the largest value to the smallest.
-///
-/// # Panics
-/// If a value is not below `days`.
-#[must_use]
-pub fn count_spacing_repeats(values: &mut [u64], days: u64) -> u64 {
-    values.sort_unstable();
-    let (Some(&first), Some(&last)) = (values.first(), values.last()) else { return 0 };
-    assert!(last < days, "day {last} of {days}");
-    let mut spacings: Vec<u64> = values.windows(2).map(|pair| pair[1] - pair[0]).collect();
-    spacings.push(first + (days - last));
-    count_repeats(&mut spacings)
-}
-
-/// Judges the number of equal spacings of `n` birthdays in a year of `days`.
-///
-/// The law is Poisson with mean n³/(4 days), in the limit of many values; for 512 of them and a mean of 2 a
-/// thousand replicas do not tell the difference. Source: Marsaglia and Tsang 2002, J. Stat. Softw. 7.
-///
-/// # Panics
-/// If `n` or `days` is 0.
-#[must_use]
-pub fn birthday_spacings(repeats: u64, n: u64, days: u64) -> Collisions {
-    assert!(n > 0 && days > 0, "{n} birthdays in {days} days");
-    let expected = (n as f64).powi(3) / (4.0 * days as f64);
-    let tails =
-        Tails { lower: poisson_lower_p(repeats, expected), upper: poisson_upper_p(repeats, expected) };
-    Collisions { observed: repeats, expected, tails, is_exact: false }
-}
-
 /// n - k (1 - (1 - 1/k)^n), the values less the urns that are not empty.
 fn mean(n: f64, k: f64) -> f64 {
     if n > k {
@@ -216,18 +184,6 @@ mod tests {
         follows(&histogram(|| repeats(&mut source)), |count| collisions(count, 256, 8192).tails);
     }
 
-    #[test]
-    fn birthdays_of_an_ideal_source_follow_the_law() {
-        let mut rng = rng("stats.collisions.birthday", 0);
-        let days = 1 << 24;
-        let outcomes = histogram(|| {
-            let mut birthdays: Vec<u64> =
-                (0..512).map(|_| (uniform01(&mut rng) * days as f64) as u64).collect();
-            count_spacing_repeats(&mut birthdays, days)
-        });
-        follows(&outcomes, |count| birthday_spacings(count, 512, days).tails);
-    }
-
     /// Values on one tenth of the urns collide ten times as often; stratified ones never do.
     #[test]
     fn broken_sources_are_rejected() {
@@ -237,10 +193,5 @@ mod tests {
         assert!(found.tails.upper < 1e-100);
         let mut strata: Vec<u64> = (0..4096).map(|i| i * 64).collect();
         assert!(collisions(count_repeats(&mut strata), 4096, 1 << 18).tails.lower < 1e-13);
-        // Multiples of 1000: spacings repeat a thousand times as often.
-        let mut lattice: Vec<u64> =
-            (0..512).map(|_| (uniform01(&mut rng) * 16_777.0) as u64 * 1000).collect();
-        let repeats = count_spacing_repeats(&mut lattice, 1 << 24);
-        assert!(birthday_spacings(repeats, 512, 1 << 24).tails.upper < 1e-100);
     }
 }

@@ -11,7 +11,6 @@
 //! | [`histogram`] | how often did each equal part of `[0, 1]` come up? |
 //! | [`chi_square`] | do counts follow given probabilities, each other, or a product law? |
 //! | [`ecdf`] | how far is a sample from uniform (Kolmogorov-Smirnov, and a bound for every size)? |
-//! | [`anderson_darling`] | the same, with the weight on the ends of the interval |
 //! | [`two_sample`] | how far are two samples from each other? |
 //! | [`normal`] | tails and quantile of the normal law |
 //! | [`beta`] | tails of Student's t and Fisher's F |
@@ -32,7 +31,6 @@
 //! What never lives here: thresholds, hashes, textures or any other subject of a test; significance levels
 //! and tolerances; files, text output and serialization; estimates without a stated law.
 
-pub mod anderson_darling;
 pub mod autocorrelation;
 pub mod beta;
 pub mod binomial;

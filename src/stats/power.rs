@@ -1,11 +1,10 @@
 //! The smallest defect that a test can see.
 //!
 //! A test that passed says little unless it says what it would have caught. Everything here takes a level
-//! `alpha` (the chance to reject a good source) and a `power` (the chance to reject a bad one). What is
-//! `detectable` is how bad the source has to be for a given sample; what is `needed` is how large the sample
-//! has to be for a given defect.
+//! `alpha` (the chance to reject a good source) and a `power` (the chance to reject a bad one), and gives how
+//! bad the source has to be for a given sample.
 
-use super::binomial::{self, poisson_pmf};
+use super::binomial::poisson_pmf;
 use super::{chi_square, normal};
 
 /// Gives the noncentrality λ at which a chi-square test of level `alpha` rejects with probability `power`.
@@ -68,93 +67,6 @@ pub fn detectable_distance_ks(n: u64, alpha: f64, power: f64) -> f64 {
     assert_in_open_unit(alpha);
     assert_in_open_unit(power);
     super::ecdf::dkwm_distance(n, alpha) + super::ecdf::dkwm_distance(n, 1.0 - power)
-}
-
-/// Gives the number of observations from which on a chi-square test detects the effect size w²: λ/w².
-///
-/// # Panics
-/// If `effect` is not above 0, and where [`noncentrality`] panics.
-#[must_use]
-pub fn needed_samples_chi_square(dof: u64, effect: f64, alpha: f64, power: f64) -> u64 {
-    assert!(effect > 0.0, "effect {effect}");
-    at_least_one(noncentrality(dof, alpha, power) / effect)
-}
-
-/// Gives the number of observations from which on a two-sided test of their mean detects a shift of it.
-///
-/// `sigma` is the standard deviation of one observation, in the unit of the shift; the mean has the standard
-/// error sigma / sqrt(n).
-///
-/// # Panics
-/// If `shift` or `sigma` is not above 0, or `alpha` or `power` is not in `(0, 1)`.
-#[must_use]
-pub fn needed_samples_z(shift: f64, sigma: f64, alpha: f64, power: f64) -> u64 {
-    assert!(shift > 0.0 && sigma > 0.0, "shift {shift}, sigma {sigma}");
-    at_least_one((detectable_shift_z(sigma, alpha, power).max(0.0) / shift).powi(2))
-}
-
-/// Gives the number of values from which on a Kolmogorov-Smirnov test is sure to detect a distance from
-/// uniform.
-///
-/// # Panics
-/// If `distance` is not in `(0, 1]`, or `alpha` or `power` is not in `(0, 1)`.
-#[must_use]
-pub fn needed_samples_ks(distance: f64, alpha: f64, power: f64) -> u64 {
-    assert!(distance > 0.0 && distance <= 1.0, "distance {distance}");
-    at_least_one((detectable_distance_ks(1, alpha, power) / distance).powi(2))
-}
-
-/// Gives a number of trials at which an exact two-sided test of the probability `q` detects that it is
-/// `share`.
-///
-/// The test rejects when a binomial tail is at most `alpha / 2`; rejections on the wrong side are neglected.
-/// `power` is reached with this number and not with one less. It is not reached with every larger number: where
-/// the critical count goes up by one, the power falls by up to the probability of one count.
-///
-/// # Panics
-/// If `q` is not in `(0, 1)`, `share` is `q` or not in `[0, 1]`, or `alpha` or `power` is not in `(0, 1)`.
-#[must_use]
-pub fn needed_samples_share(q: f64, share: f64, alpha: f64, power: f64) -> u64 {
-    assert!((0.0..=1.0).contains(&share) && share != q, "share {share} for {q}");
-    assert_in_open_unit(q);
-    assert_in_open_unit(alpha);
-    assert_in_open_unit(power);
-    first_from(1, |n| power_of_share(n, q, share, alpha) >= power)
-}
-
-/// Probability that the exact test of `q` rejects on the side of `share`.
-fn power_of_share(n: u64, q: f64, share: f64, alpha: f64) -> f64 {
-    if share < q {
-        // What happens too rarely fails to happen too often.
-        return power_of_share(n, 1.0 - q, 1.0 - share, alpha);
-    }
-    let critical = first_from((n as f64 * q) as u64, |k| binomial::upper_p(k, n, q) <= 0.5 * alpha);
-    binomial::upper_p(critical, n, share)
-}
-
-/// The next whole number, which is 1 or more.
-fn at_least_one(n: f64) -> u64 {
-    (n.ceil() as u64).max(1)
-}
-
-/// The whole number from `start` on where a predicate turns from false to true.
-fn first_from(start: u64, holds: impl Fn(u64) -> bool) -> u64 {
-    let (mut no, mut yes) = (start, start);
-    let mut step = 1;
-    while !holds(yes) {
-        no = yes + 1;
-        yes += step;
-        step *= 2;
-    }
-    while no < yes {
-        let middle = no + (yes - no) / 2;
-        if holds(middle) {
-            yes = middle;
-        } else {
-            no = middle + 1;
-        }
-    }
-    yes
 }
 
 fn assert_in_open_unit(p: f64) {
@@ -237,52 +149,6 @@ mod tests {
             let shift = detectable_shift_z(1.0, alpha, 0.999);
             assert_close(noncentrality(1, alpha, 0.999), shift * shift, 1e-9);
         }
-    }
-
-    /// The number that is needed detects the effect, and one less does not.
-    #[test]
-    fn needed_samples_return_the_effect() {
-        for (alpha, power) in [(1e-3, 0.5), (1e-6, 0.9), (1e-9, 0.999)] {
-            for effect in [1e-6, 3e-4, 0.05, 2.0] {
-                let check = |n: u64, detectable: &dyn Fn(u64) -> f64| {
-                    assert!(detectable(n) <= effect * (1.0 + 1e-12), "{effect} at {alpha}, {power}: {n}");
-                    assert!(n == 1 || detectable(n - 1) > effect * (1.0 - 1e-12), "{n} is too many");
-                };
-                check(needed_samples_chi_square(63, effect, alpha, power), &|n| {
-                    detectable_effect_chi_square(63, n, alpha, power)
-                });
-                check(needed_samples_z(effect, 0.5, alpha, power), &|n| {
-                    detectable_shift_z(0.5 / (n as f64).sqrt(), alpha, power)
-                });
-                if effect <= 1.0 {
-                    let n = needed_samples_ks(effect, alpha, power);
-                    check(n, &|n| detectable_distance_ks(n, alpha, power));
-                }
-            }
-        }
-        // Half of all rejections come without any effect.
-        assert_eq!(needed_samples_z(0.1, 1.0, 0.5, 0.1), 1);
-    }
-
-    #[test]
-    fn needed_trials_return_the_share() {
-        for (q, share, alpha, power) in [
-            (0.5, 0.7, 1e-3, 0.9),
-            (0.5, 0.35, 1e-6, 0.99),
-            (0.02, 0.1, 1e-4, 0.8),
-            (0.9, 0.99, 1e-2, 0.5),
-            (0.3, 1.0, 1e-9, 0.999),
-            (0.3, 0.0, 1e-9, 0.999),
-        ] {
-            let n = needed_samples_share(q, share, alpha, power);
-            let reached = |n| power_of_share(n, q, share, alpha);
-            assert!(reached(n) >= power && reached(n - 1) < power, "{q} {share}: {n}");
-            let one_count = 0.4 / (n as f64 * share * (1.0 - share)).sqrt().max(0.4);
-            assert!((n..2 * n).all(|n| reached(n) >= power - one_count), "{q} {share}: {n} falls far");
-        }
-        // The normal law: (z sqrt(q(1-q)) + z' sqrt(s(1-s)))² / (s - q)², 5.998 and 3.090.
-        let n = needed_samples_share(0.5, 0.51, 2e-9, 0.999) as f64;
-        assert_close(n, (0.5 * 5.998 + 0.499_9 * 3.090_f64).powi(2) / 1e-4, 2e-3);
     }
 
     /// sqrt(ln(2e9)/2) + sqrt(ln(2000)/2) = 5.222.

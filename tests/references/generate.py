@@ -11,7 +11,7 @@ import math
 import operator
 from pathlib import Path
 
-from mpmath import binomial, cos, erfc, erfinv, exp, findroot, log, log1p, loggamma, mp, mpf, pi, quad, sin, sqrt
+from mpmath import binomial, erfc, erfinv, exp, findroot, log, log1p, loggamma, mp, mpf, sqrt
 
 mp.dps = 40
 
@@ -176,22 +176,6 @@ def two_sample(distance, m, n):
         return mpf(every - inside[n]) / every
 
 
-def anderson_darling(z):
-    """Smirnov's inversion formula, as in the source file, by adaptive quadrature."""
-    z = mpf(z)
-    total = mpf(0)
-    for k in itertools.count(1):
-        def f(angle):
-            s, c = sin(angle / 2) ** 2, cos(angle / 2) ** 2
-            x = 2 * k - 1 + s
-            near = sin(pi * min(s, c))
-            return (2 * x + 1) * exp(z - z * x * (x + 1) / 2) / sqrt(x * (x + 1) * near) * sin(angle) / 2
-        term = quad(f, [0, pi / 4, pi / 2, pi], method="gauss-legendre")
-        total += (-1) ** (k + 1) * term
-        if term < total * mpf(10) ** -25:
-            return total * exp(-z) / sqrt(pi)
-
-
 def fisher_g(g, n):
     """Terms are at most e^30 here, and none counts after 400."""
     with mp.workdps(360):
@@ -318,11 +302,6 @@ def kolmogorov_rows():
                 yield "two_sample.upper_p", [distance, m, n], two_sample(distance, m, n)
 
 
-def anderson_darling_rows():
-    for z in [0.2, 0.5, 1.0, 2.492, 3.857, 6.0, 10.0, 15.0, 20.0, 50.0, 100.0, 300.0, 680.0]:
-        yield "anderson_darling.upper_p", [z], anderson_darling(z)
-
-
 def fisher_rows():
     for n in [2, 5, 16, 17, 30, 100, 500, 2000, 32_640]:
         for expected in [30.0, 10.0, 4.0, 2.1, 1.9, 0.5, 0.01, 1e-6, 1e-12, 1e-50, 1e-290]:
@@ -351,7 +330,6 @@ if __name__ == "__main__":
     write("fisher_g", fisher_rows())
     write("collisions", collision_rows())
     write("power", power_rows())
-    write("anderson_darling", anderson_darling_rows())
     write("beta", beta_rows())
     write("kolmogorov", kolmogorov_rows())
     write("binomial", binomial_rows())

@@ -1,0 +1,377 @@
+//! Textures: an alpha map with its mip chain, the colours that go with it, and how they are filtered.
+
+use glam::{Vec2, vec2};
+use serde::Deserialize;
+
+/// What lies beyond the edge of a texture.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Wrap {
+    /// The texture again.
+    Repeat,
+    /// Its outermost texel.
+    #[default]
+    Clamp,
+}
+
+/// How texels become one value.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Filter {
+    /// The nearest texel of the nearest level.
+    Nearest,
+    /// Four texels of the nearest level.
+    Bilinear,
+    /// Four texels of each of the two nearest levels.
+    #[default]
+    Trilinear,
+    /// Up to 16 trilinear probes along the longer axis of the footprint.
+    Anisotropic,
+}
+
+/// The greatest number of probes of [`Filter::Anisotropic`]: what hardware goes to.
+const MOST_PROBES: f32 = 16.0;
+
+/// One level of a mip chain, row by row from the upper edge (texture coordinate y = 0).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Level {
+    /// Width and height in texels, at least 1.
+    pub size: [u32; 2],
+    /// Alpha of each texel, in [0, 1].
+    pub alpha: Vec<f32>,
+    /// Colour of each texel as shares of 65535; empty for a texture that has none.
+    pub colour: Vec<[u16; 3]>,
+}
+
+/// A texture before its mip chain is built.
+#[derive(Clone, Debug)]
+pub struct Cover {
+    /// Its finest level.
+    pub finest: Level,
+    /// What lies beyond its edge.
+    pub wrap: Wrap,
+    /// How texels become one value.
+    pub filter: Filter,
+}
+
+/// What a plan needs of textures.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct TextureNeeds {
+    /// Colours multiplied by alpha.
+    pub premultiplied: bool,
+    /// A threshold for each level.
+    pub thresholds: bool,
+    /// Scaled alphas.
+    pub scaling: Option<Scaling>,
+}
+
+/// How stored alphas are changed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scaling {
+    /// By a factor a level (Castano 2010).
+    Levels,
+    /// By a factor a texel, from the texels so far around it.
+    Texels(usize),
+}
+
+/// A texture with every level down to one texel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Texture {
+    /// The levels, the finest first; never empty.
+    pub levels: Vec<Level>,
+    /// What lies beyond the edge.
+    pub wrap: Wrap,
+    /// How texels become one value.
+    pub filter: Filter,
+    /// A threshold for each level (Eq. 1); empty unless asked for.
+    pub thresholds: Vec<f32>,
+}
+
+/// Where and how coarsely a texture is read.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Access {
+    /// Texture coordinate, [0, 1] across the texture.
+    pub texcoord: Vec2,
+    /// Level of detail that the filter reads, log2 of texels per probe; not yet limited to the levels that exist.
+    pub lod: f32,
+    /// Number of probes.
+    pub probes: u32,
+    /// From one probe to the next, in texture coordinates.
+    pub step: Vec2,
+}
+
+impl Texture {
+    /// Builds the mip chain of a finest level by area averages, which keep the mean at every size.
+    ///
+    /// Colours are averaged as they are, so that those of transparent texels bleed in, or weighted by alpha where
+    /// `premultiplied` (§7.3).
+    #[must_use]
+    pub fn new(finest: Level, wrap: Wrap, filter: Filter, premultiplied: bool) -> Self {
+        let mut levels = vec![if premultiplied { premultiply(finest) } else { finest }];
+        while let Some(next) = levels.last().and_then(half) {
+            levels.push(next);
+        }
+        Self { levels, wrap, filter, thresholds: Vec::new() }
+    }
+
+    /// Returns where to read for a texture coordinate with its two screen derivatives (texture coordinates per pixel).
+    #[must_use]
+    pub fn access(&self, texcoord: Vec2, dtdx: Vec2, dtdy: Vec2) -> Access {
+        let [width, height] = self.levels[0].size.map(|side| side as f32);
+        let size = vec2(width, height);
+        let (along_x, along_y) = ((dtdx * size).length(), (dtdy * size).length());
+        let (long, short, axis) =
+            if along_x < along_y { (along_y, along_x, dtdy) } else { (along_x, along_y, dtdx) };
+        // A footprint without extent reads the finest level.
+        let lod = |texels: f32| libm::log2f(texels.max(f32::MIN_POSITIVE));
+        if self.filter != Filter::Anisotropic {
+            return Access { texcoord, lod: lod(long), probes: 1, step: Vec2::ZERO };
+        }
+        let ratio = long / short;
+        // A quotient of zeros is no anisotropy.
+        let probes = if ratio.is_nan() { 1.0 } else { ratio.ceil().clamp(1.0, MOST_PROBES) };
+        Access { texcoord, lod: lod(long / probes), probes: probes as u32, step: axis / probes }
+    }
+
+    /// Returns the number of texels that [`Texture::alpha`] reads for an access.
+    #[must_use]
+    pub fn texels(&self, access: &Access) -> u64 {
+        let each = match self.filter {
+            Filter::Nearest => 1,
+            Filter::Bilinear => 4,
+            Filter::Trilinear | Filter::Anisotropic => {
+                if self.blend(access.lod).1 > 0.0 {
+                    8
+                } else {
+                    4
+                }
+            }
+        };
+        each * u64::from(access.probes)
+    }
+
+    /// Returns the filtered alpha, in [0, 1], and adds to `texels` the number of texels that were read.
+    #[must_use]
+    pub fn alpha(&self, access: &Access, texels: &mut u64) -> f32 {
+        self.probe(access, |level, at| {
+            *texels += 1;
+            [level.alpha[at], 0.0, 0.0]
+        })[0]
+    }
+
+    /// Returns the filtered colour, or `None` for a texture that has none; multiplied by alpha if the texture is.
+    #[must_use]
+    pub fn colour(&self, access: &Access) -> Option<[f32; 3]> {
+        if self.levels[0].colour.is_empty() {
+            return None;
+        }
+        Some(self.probe(access, |level, at| level.colour[at].map(|share| f32::from(share) / 65535.0)))
+    }
+
+    /// Returns the threshold of an access: that of its level, mixed between two as alpha is; infinite where nothing may
+    /// pass.
+    ///
+    /// Without thresholds it is one half.
+    #[must_use]
+    pub fn level_threshold(&self, access: &Access) -> f32 {
+        let (finer, weight) = self.blend(access.lod);
+        let of = |level: usize| self.thresholds.get(level).copied().unwrap_or(0.5);
+        if weight > 0.0 { (1.0 - weight) * of(finer) + weight * of(finer + 1) } else { of(finer) }
+    }
+
+    fn probe(&self, access: &Access, mut texel: impl FnMut(&Level, usize) -> [f32; 3]) -> [f32; 3] {
+        let mut sum = [0.0; 3];
+        for probe in 0..access.probes {
+            let place = access.texcoord + access.step * (probe as f32 - (access.probes - 1) as f32 * 0.5);
+            let value = self.filtered(place, access.lod, &mut texel);
+            sum = [0, 1, 2].map(|c| sum[c] + value[c]);
+        }
+        sum.map(|component| component / access.probes as f32)
+    }
+
+    /// The finer level of a trilinear access and the weight of the coarser one.
+    fn blend(&self, lod: f32) -> (usize, f32) {
+        let last = (self.levels.len() - 1) as f32;
+        let lod = lod.clamp(0.0, last);
+        let finer = lod.floor();
+        (finer as usize, lod - finer)
+    }
+
+    fn filtered(&self, place: Vec2, lod: f32, texel: &mut impl FnMut(&Level, usize) -> [f32; 3]) -> [f32; 3] {
+        let nearest = || self.blend(lod.max(0.0) + 0.5).0.min(self.levels.len() - 1);
+        match self.filter {
+            Filter::Nearest => {
+                let level = &self.levels[nearest()];
+                let [x, y] = [0, 1].map(|axis| (place[axis] * level.size[axis] as f32).floor() as i64);
+                texel(level, level.at([x, y], self.wrap))
+            }
+            Filter::Bilinear => self.bilinear(nearest(), place, texel),
+            Filter::Trilinear | Filter::Anisotropic => {
+                let (finer, weight) = self.blend(lod);
+                let fine = self.bilinear(finer, place, texel);
+                if weight > 0.0 {
+                    let coarse = self.bilinear(finer + 1, place, texel);
+                    mix(fine, coarse, weight)
+                } else {
+                    fine
+                }
+            }
+        }
+    }
+
+    fn bilinear(
+        &self,
+        level: usize,
+        place: Vec2,
+        texel: &mut impl FnMut(&Level, usize) -> [f32; 3],
+    ) -> [f32; 3] {
+        let level = &self.levels[level];
+        let [x, y] = [0, 1].map(|axis| place[axis] * level.size[axis] as f32 - 0.5);
+        let (left, top) = (x.floor(), y.floor());
+        let mut at = |dx: i64, dy: i64| {
+            let index = level.at([left as i64 + dx, top as i64 + dy], self.wrap);
+            texel(level, index)
+        };
+        let upper = mix(at(0, 0), at(1, 0), x - left);
+        let lower = mix(at(0, 1), at(1, 1), x - left);
+        mix(upper, lower, y - top)
+    }
+}
+
+impl Level {
+    /// Index of the texel at a place, inside the texture or not.
+    fn at(&self, [x, y]: [i64; 2], wrap: Wrap) -> usize {
+        let [width, height] = self.size.map(i64::from);
+        let [x, y] = match wrap {
+            Wrap::Repeat => [x.rem_euclid(width), y.rem_euclid(height)],
+            Wrap::Clamp => [x.clamp(0, width - 1), y.clamp(0, height - 1)],
+        };
+        (y * width + x) as usize
+    }
+
+    /// Returns the mean alpha.
+    #[must_use]
+    pub fn mean_alpha(&self) -> f64 {
+        self.alpha.iter().map(|&alpha| f64::from(alpha)).sum::<f64>() / self.alpha.len() as f64
+    }
+
+    /// Returns the share of texels whose alpha is at least `threshold`.
+    #[must_use]
+    pub fn share_at_least(&self, threshold: f32) -> f64 {
+        self.alpha.iter().filter(|&&alpha| alpha >= threshold).count() as f64 / self.alpha.len() as f64
+    }
+}
+
+fn mix(a: [f32; 3], b: [f32; 3], weight: f32) -> [f32; 3] {
+    [0, 1, 2].map(|c| a[c] + (b[c] - a[c]) * weight)
+}
+
+fn premultiply(mut level: Level) -> Level {
+    for (colour, &alpha) in level.colour.iter_mut().zip(&level.alpha) {
+        *colour = colour.map(|share| (f32::from(share) * alpha).round() as u16);
+    }
+    level
+}
+
+/// For each texel of a side of half the length, the texels that it averages and their weights.
+fn shares(side: u32) -> Vec<Vec<(usize, f64)>> {
+    let halved = (side / 2).max(1);
+    let width = f64::from(side) / f64::from(halved);
+    (0..halved)
+        .map(|index| {
+            let (from, to) = (f64::from(index) * width, f64::from(index + 1) * width);
+            (from.floor() as usize..(to.ceil() as usize).min(side as usize))
+                .map(|texel| (texel, ((texel + 1) as f64).min(to) - (texel as f64).max(from)))
+                .filter(|&(_, weight)| weight > 0.0)
+                .map(|(texel, weight)| (texel, weight / width))
+                .collect()
+        })
+        .collect()
+}
+
+/// The next level; `None` after the one of a single texel.
+fn half(level: &Level) -> Option<Level> {
+    let [width, height] = level.size;
+    if level.size == [1, 1] {
+        return None;
+    }
+    let (columns, rows) = (shares(width), shares(height));
+    let mut next = Level {
+        size: [(width / 2).max(1), (height / 2).max(1)],
+        alpha: Vec::with_capacity(columns.len() * rows.len()),
+        colour: Vec::new(),
+    };
+    for row in &rows {
+        for column in &columns {
+            let average = |value: &dyn Fn(usize) -> f64| -> f64 {
+                row.iter()
+                    .flat_map(|&(y, down)| {
+                        column.iter().map(move |&(x, across)| (y * width as usize + x, down * across))
+                    })
+                    .map(|(at, weight)| value(at) * weight)
+                    .sum()
+            };
+            next.alpha.push(average(&|at| f64::from(level.alpha[at])) as f32);
+            if !level.colour.is_empty() {
+                next.colour
+                    .push([0, 1, 2].map(|c| average(&|at| f64::from(level.colour[at][c])).round() as u16));
+            }
+        }
+    }
+    Some(next)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn texture(size: [u32; 2], filter: Filter) -> Texture {
+        let alpha = (0..size[0] * size[1]).map(|i| f32::from((i * 7 % 11) as u8) / 10.0).collect();
+        Texture::new(Level { size, alpha, colour: Vec::new() }, Wrap::Repeat, filter, false)
+    }
+
+    #[test]
+    fn every_level_keeps_the_mean_and_the_last_is_one_texel() {
+        for size in [[64, 64], [7, 5], [65_535, 1], [1, 3]] {
+            let texture = texture(size, Filter::Trilinear);
+            let mean = texture.levels[0].mean_alpha();
+            assert!(texture.levels.iter().all(|level| (level.mean_alpha() - mean).abs() < 1e-6), "{size:?}");
+            assert_eq!(texture.levels.last().map(|level| level.size), Some([1, 1]));
+        }
+    }
+
+    #[test]
+    fn the_texels_that_are_announced_are_read() {
+        for filter in [Filter::Nearest, Filter::Bilinear, Filter::Trilinear, Filter::Anisotropic] {
+            let texture = texture([64, 32], filter);
+            for step in 0..200 {
+                let dtdx = vec2(0.001 * step as f32, 0.002);
+                let access = texture.access(vec2(0.3, 0.7 + dtdx.x), dtdx, vec2(0.0, 0.01));
+                let mut read = 0;
+                let alpha = texture.alpha(&access, &mut read);
+                assert!((0.0..=1.0).contains(&alpha));
+                assert_eq!(read, texture.texels(&access), "{filter:?} {access:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn anisotropic_probes_read_finer_levels() {
+        let [plain, probing] =
+            [Filter::Trilinear, Filter::Anisotropic].map(|filter| texture([256, 256], filter));
+        let (dtdx, dtdy) = (vec2(0.1, 0.0), vec2(0.0, 0.01));
+        let [coarse, fine] = [&plain, &probing].map(|texture| texture.access(Vec2::ZERO, dtdx, dtdy));
+        assert!((coarse.lod - libm::log2f(25.6)).abs() < 1e-5);
+        assert!((fine.lod - coarse.lod + libm::log2f(10.0)).abs() < 1e-5 && fine.probes == 10, "{fine:?}");
+    }
+
+    #[test]
+    fn colours_of_transparent_texels_bleed_unless_premultiplied() {
+        let finest =
+            Level { size: [2, 1], alpha: vec![1.0, 0.0], colour: vec![[0, 60_000, 0], [60_000, 0, 0]] };
+        let straight = Texture::new(finest.clone(), Wrap::Clamp, Filter::Trilinear, false);
+        let multiplied = Texture::new(finest, Wrap::Clamp, Filter::Trilinear, true);
+        assert_eq!(straight.levels[1].colour, [[30_000, 30_000, 0]]);
+        assert_eq!(multiplied.levels[1].colour, [[0, 30_000, 0]]);
+    }
+}

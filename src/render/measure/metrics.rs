@@ -1,0 +1,441 @@
+//! What is measured of pictures.
+
+use super::depth::DepthBuffer;
+use super::layers::LayerSums;
+use super::picture::{Picture, Region};
+use crate::render::draw::shot::Shot;
+use crate::render::draw::view::Cause;
+use crate::render::draw::work::Frame;
+use crate::technique::foveated::Gaze;
+use image::GrayImage;
+use image_compare::Algorithm;
+use std::collections::{BTreeMap, VecDeque};
+
+/// Measured numbers by name.
+///
+/// | name | meaning |
+/// |---|---|
+/// | `coverage` | mean share of the image that is covered, over all frames |
+/// | `coverage_ratio` | that, as a share of the truth's |
+/// | `rmse`, `rmse_coverage` | root mean square error of colour and of coverage to the truth, mean over frames |
+/// | `rmse_of_mean` | that of the coverage of the mean over frames |
+/// | `coverage.NAME`, `coverage_ratio.NAME` | the first two within a region of the scene |
+/// | `ssim` | structural similarity of luminance to the truth, mean over frames |
+/// | `flips` | change of coverage a frame, per pixel that a surface touches in both |
+/// | `changed` | change of coverage a frame over the whole image, as a share of the mean coverage |
+/// | `flips.translate`, `.zoom`, `.rotate` | the same with one cause of motion alone |
+/// | `layer_correlation` | correlation of the visibilities of the first two layers, where both are partly transparent |
+/// | `coverage_ratio.gaze`, `.periphery` | the coverage ratio within the circle around the gaze, and outside |
+/// | `ghosting` | share of the coverage that is shown where no surface is in that frame; of takes that mix frames |
+/// | `swing` | difference between the highest and the lowest coverage of a pixel in the last eight frames, mean over touched pixels; of the same takes |
+/// | `open` | share of the rays that are open, over all frames |
+/// | `open_flips` | change of that share a frame, per pixel with a ray in both |
+/// | `open_run_ratio` | `run_ratio` of open and occluded pixels |
+/// | `depth.phantoms` | share of the depths of a smaller buffer at which there is nothing |
+/// | `depth.occlusion` | mean share of the neighbours of a pixel that are nearer than it |
+/// | `run_x`, `run_y` | mean length of runs of equal visibility along the rows and the columns, in pixels |
+/// | `run_ratio` | `run_y / run_x` |
+///
+/// Those of another distance end in `@` and its factor.
+pub type Metrics = BTreeMap<String, f64>;
+
+/// What is measured beyond what every scene is.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Asked {
+    /// Correlation of the first two layers.
+    pub layers: bool,
+    /// What frames leave behind in later ones.
+    pub ghosts: bool,
+    /// The circle around the gaze and its outside, each alone.
+    pub gaze: Option<Gaze>,
+}
+
+/// Sums over the frames of a shot.
+#[derive(Clone, Debug, Default)]
+pub struct Measured {
+    shots: u32,
+    regions: Vec<Region>,
+    depth: Option<DepthBuffer>,
+    sums: Sums,
+    mean_of_first: Option<Picture>,
+}
+
+#[derive(Clone, Debug, Default)]
+struct Sums {
+    frames: f64,
+    coverage: f64,
+    /// Coverage of each region, and that of the truth.
+    regions: Vec<[f64; 2]>,
+    depth: BTreeMap<&'static str, f64>,
+    truth: Option<TruthSums>,
+    before: Option<(Vec<f32>, Vec<bool>)>,
+    /// Change of coverage, and pixels that were compared.
+    flips: [f64; 2],
+    /// Change of coverage over all pixels, and the number of frames that were compared.
+    changed: [f64; 2],
+    /// Coverage where no surface is, and all.
+    ghosts: Option<[f64; 2]>,
+    /// Coverage of the latest frames.
+    latest: VecDeque<Vec<f32>>,
+    touched: Vec<bool>,
+    open: Option<OpenSums>,
+    /// Neighbours along each axis that differ, and all.
+    runs: [[f64; 2]; 2],
+    layers: Option<LayerSums>,
+    /// Coverage and that of the truth, within the circle around the gaze and outside.
+    gaze: Option<[[f64; 2]; 2]>,
+    mean: Option<Picture>,
+}
+
+#[derive(Clone, Debug, Default)]
+struct OpenSums {
+    /// Rays, and those that are open.
+    rays: [u64; 2],
+    before: Vec<Option<f32>>,
+    /// Change of the share, and pixels that were compared.
+    flips: [f64; 2],
+    runs: [[f64; 2]; 2],
+}
+
+#[derive(Clone, Debug)]
+struct TruthSums {
+    coverage: f64,
+    rmse: f64,
+    rmse_coverage: f64,
+    ssim: f64,
+    mean: Vec<f32>,
+}
+
+impl Measured {
+    /// Prepares to measure regions and the depth buffer beside the whole picture.
+    #[must_use]
+    pub fn new(regions: &[Region], depth: Option<&DepthBuffer>) -> Self {
+        Self { regions: regions.to_vec(), depth: depth.cloned(), ..Self::default() }
+    }
+
+    /// Begins a shot.
+    pub fn begin(&mut self) {
+        self.sums = Sums { regions: vec![[0.0; 2]; self.regions.len()], ..Sums::default() };
+        self.shots += 1;
+    }
+
+    /// Tells whether no shot has ended yet.
+    #[must_use]
+    pub fn is_first_shot(&self) -> bool {
+        self.shots == 1
+    }
+
+    /// Adds a frame; `truth` as it should be.
+    pub fn add(&mut self, frame: &Frame, truth: Option<&Picture>, asked: Asked) {
+        let picture = &frame.picture;
+        let sums = &mut self.sums;
+        sums.frames += 1.0;
+        sums.coverage += picture.mean_coverage();
+        if let Some((before, touched)) = &sums.before {
+            for at in (0..before.len()).filter(|&at| touched[at] && frame.touched[at]) {
+                sums.flips[0] += f64::from((picture.coverage[at] - before[at]).abs());
+                sums.flips[1] += 1.0;
+            }
+            let changes = before.iter().zip(&picture.coverage).map(|(a, b)| f64::from((a - b).abs()));
+            sums.changed[0] += changes.sum::<f64>() / before.len().max(1) as f64;
+            sums.changed[1] += 1.0;
+        }
+        sums.before = Some((picture.coverage.clone(), frame.touched.clone()));
+        let size = picture.size.map(|side| side as usize);
+        runs(size, |at| frame.touched[at].then(|| picture.coverage[at] >= 0.5), &mut sums.runs);
+        if !frame.rays.is_empty() {
+            sums.open.get_or_insert_default().add(size, &frame.rays);
+        }
+        if asked.ghosts {
+            let [ghosts, all] = sums.ghosts.get_or_insert_default();
+            for (&share, &touched) in picture.coverage.iter().zip(&frame.touched) {
+                *ghosts += if touched { 0.0 } else { f64::from(share) };
+                *all += f64::from(share);
+            }
+            if sums.latest.len() == CYCLE {
+                sums.latest.pop_front();
+            }
+            sums.latest.push_back(picture.coverage.clone());
+            sums.touched.clone_from(&frame.touched);
+        }
+        for (region, [found, right]) in self.regions.iter().zip(&mut sums.regions) {
+            *found += within(region, picture);
+            *right += truth.map_or(0.0, |truth| within(region, truth));
+        }
+        if let (Some(table), Some(depth)) = (&self.depth, &frame.depth) {
+            for (name, value) in depth.measures(table) {
+                *sums.depth.entry(name).or_default() += value;
+            }
+        }
+        if asked.layers {
+            let layers = sums.layers.get_or_insert_default();
+            layers.covariance += frame.layers.covariance;
+            layers.deviation += frame.layers.deviation;
+        }
+        if let Some(truth) = truth {
+            if let Some(gaze) = &asked.gaze {
+                add_around(gaze, picture, truth, sums.gaze.get_or_insert_default());
+            }
+            let errors = sums.truth.get_or_insert_with(|| TruthSums {
+                coverage: 0.0,
+                rmse: 0.0,
+                rmse_coverage: 0.0,
+                ssim: 0.0,
+                mean: vec![0.0; truth.coverage.len()],
+            });
+            errors.coverage += truth.mean_coverage();
+            errors.rmse += root_mean_square(picture.colour.as_flattened(), truth.colour.as_flattened());
+            errors.rmse_coverage += root_mean_square(&picture.coverage, &truth.coverage);
+            errors.ssim += similarity(picture, truth);
+            errors.mean.iter_mut().zip(&truth.coverage).for_each(|(sum, share)| *sum += share);
+        }
+        match &mut sums.mean {
+            None => sums.mean = Some(picture.clone()),
+            Some(mean) => {
+                mean.coverage.iter_mut().zip(&picture.coverage).for_each(|(sum, share)| *sum += share);
+                let colours = mean.colour.as_flattened_mut().iter_mut();
+                colours.zip(picture.colour.as_flattened()).for_each(|(sum, share)| *sum += share);
+            }
+        }
+    }
+
+    /// Ends a shot and writes what it showed.
+    pub fn end(&mut self, shot: &Shot, metrics: &mut Metrics) {
+        let sums = core::mem::take(&mut self.sums);
+        let frames = sums.frames.max(1.0);
+        let suffix = if shot.distance == 1.0 && self.shots == 1 {
+            String::new()
+        } else {
+            format!("@{}", shot.distance)
+        };
+        let mut put = |name: &str, value: f64| {
+            metrics.insert(format!("{name}{suffix}"), value);
+        };
+        let flips = sums.flips[0] / sums.flips[1].max(1.0);
+        if shot.cause != Cause::All {
+            metrics.insert(format!("flips.{}", shot.cause.name()), flips);
+            return;
+        }
+        put("coverage", sums.coverage / frames);
+        for (region, [found, right]) in self.regions.iter().zip(&sums.regions) {
+            put(&format!("coverage.{}", region.name), found / frames);
+            if sums.truth.is_some() {
+                put(&format!("coverage_ratio.{}", region.name), found / right.max(f64::MIN_POSITIVE));
+            }
+        }
+        if sums.flips[1] > 0.0 {
+            put("flips", flips);
+        }
+        let [changed, compared] = sums.changed;
+        if compared > 0.0 {
+            put("changed", changed / compared / (sums.coverage / frames).max(f64::MIN_POSITIVE));
+        }
+        let [run_x, run_y] = sums.runs.map(|[differ, all]| all / f64::max(differ, 1.0));
+        put("run_x", run_x);
+        put("run_y", run_y);
+        put("run_ratio", run_y / run_x.max(f64::MIN_POSITIVE));
+        if let Some([ghosts, all]) = sums.ghosts {
+            put("ghosting", ghosts / all.max(f64::MIN_POSITIVE));
+            put("swing", swing(&sums.latest, &sums.touched));
+        }
+        if let Some(open) = &sums.open {
+            put("open", open.rays[1] as f64 / open.rays[0].max(1) as f64);
+            if open.flips[1] > 0.0 {
+                put("open_flips", open.flips[0] / open.flips[1]);
+            }
+            let [x, y] = open.runs.map(|[differ, all]| all / f64::max(differ, 1.0));
+            put("open_run_ratio", y / x.max(f64::MIN_POSITIVE));
+        }
+        for (name, sum) in &sums.depth {
+            put(name, sum / frames);
+        }
+        if let Some(layers) = sums.layers {
+            put("layer_correlation", layers.covariance / layers.deviation.max(f64::MIN_POSITIVE));
+        }
+        for (name, [shown, right]) in ["gaze", "periphery"].iter().zip(sums.gaze.into_iter().flatten()) {
+            put(&format!("coverage_ratio.{name}"), shown / right.max(f64::MIN_POSITIVE));
+        }
+        if let Some(errors) = &sums.truth {
+            put("coverage_ratio", sums.coverage / errors.coverage.max(f64::MIN_POSITIVE));
+            put("rmse", errors.rmse / frames);
+            put("rmse_coverage", errors.rmse_coverage / frames);
+            put("ssim", errors.ssim / frames);
+            if let Some(mean) = &sums.mean {
+                put("rmse_of_mean", root_mean_square(&mean.coverage, &errors.mean) / frames);
+            }
+        }
+        if self.shots == 1 {
+            self.mean_of_first = sums.mean.map(|mut mean| {
+                let share = 1.0 / frames as f32;
+                mean.coverage.iter_mut().for_each(|sum| *sum *= share);
+                mean.colour.as_flattened_mut().iter_mut().for_each(|sum| *sum *= share);
+                mean
+            });
+        }
+    }
+
+    /// Returns the mean of the frames of the first shot; a picture of no size before its end.
+    #[must_use]
+    pub fn mean_of_first_shot(&self) -> Picture {
+        self.mean_of_first.clone().unwrap_or_default()
+    }
+}
+
+fn add_around(gaze: &Gaze, picture: &Picture, truth: &Picture, sums: &mut [[f64; 2]; 2]) {
+    let width = picture.size[0] as usize;
+    for (at, (&shown, &right)) in picture.coverage.iter().zip(&truth.coverage).enumerate() {
+        let place = [at % width, at / width].map(|along| along as f64 + 0.5);
+        let outside = usize::from(!gaze.is_near(place));
+        sums[outside][0] += f64::from(shown);
+        sums[outside][1] += f64::from(right);
+    }
+}
+
+/// The mean coverage of the pixels of a region.
+fn within(region: &Region, picture: &Picture) -> f64 {
+    let [columns, rows] = [0, 1].map(|axis| {
+        let end = region.corner[axis].saturating_add(region.size[axis]).min(picture.size[axis]);
+        region.corner[axis]..end
+    });
+    let of_row = |y: u32| columns.clone().map(move |x| y * picture.size[0] + x);
+    let shares: Vec<f64> = rows.flat_map(of_row).map(|at| f64::from(picture.coverage[at as usize])).collect();
+    shares.iter().sum::<f64>() / shares.len().max(1) as f64
+}
+
+fn root_mean_square(a: &[f32], b: &[f32]) -> f64 {
+    let squares: f64 = a.iter().zip(b).map(|(a, b)| f64::from(a - b) * f64::from(a - b)).sum();
+    (squares / a.len().max(1) as f64).sqrt()
+}
+
+/// Structural similarity of luminance, 1 for equal pictures.
+fn similarity(a: &Picture, b: &Picture) -> f64 {
+    let grey = |picture: &Picture| -> GrayImage { image::DynamicImage::from(picture.to_rgb()).to_luma8() };
+    image_compare::gray_similarity_structure(&Algorithm::MSSIMSimple, &grey(a), &grey(b))
+        // Pictures of one scene have one size.
+        .map_or(f64::NAN, |similarity| similarity.score)
+}
+
+/// Frames over which a swing is measured: as many as temporal antialiasing commonly has.
+const CYCLE: usize = 8;
+
+fn swing(latest: &VecDeque<Vec<f32>>, touched: &[bool]) -> f64 {
+    let pixels: Vec<usize> = (0..touched.len()).filter(|&at| touched[at]).collect();
+    let of = |&at: &usize| {
+        let shares = latest.iter().map(|frame| frame[at]);
+        let (least, most) = shares.fold((f32::INFINITY, f32::NEG_INFINITY), |(a, b), s| (a.min(s), b.max(s)));
+        f64::from(most - least)
+    };
+    pixels.iter().map(of).sum::<f64>() / pixels.len().max(1) as f64
+}
+
+impl OpenSums {
+    fn add(&mut self, size: [usize; 2], rays: &[[u16; 2]]) {
+        let share = |&[rays, open]: &[u16; 2]| (rays > 0).then(|| f32::from(open) / f32::from(rays));
+        let now: Vec<Option<f32>> = rays.iter().map(share).collect();
+        for [rays, open] in rays {
+            self.rays = [self.rays[0] + u64::from(*rays), self.rays[1] + u64::from(*open)];
+        }
+        for (before, now) in self.before.iter().zip(&now) {
+            if let (Some(before), Some(now)) = (before, now) {
+                self.flips = [self.flips[0] + f64::from((before - now).abs()), self.flips[1] + 1.0];
+            }
+        }
+        runs(size, |at| now[at].map(|share| share >= 0.5), &mut self.runs);
+        self.before = now;
+    }
+}
+
+/// Counts neighbours along each axis that are seen differently, and all of which both are seen.
+fn runs([width, height]: [usize; 2], seen: impl Fn(usize) -> Option<bool>, runs: &mut [[f64; 2]; 2]) {
+    for y in 0..height {
+        for x in 0..width {
+            let Some(here) = seen(y * width + x) else { continue };
+            let beside = (x + 1 < width).then(|| seen(y * width + x + 1)).flatten();
+            let below = (y + 1 < height).then(|| seen((y + 1) * width + x)).flatten();
+            for (axis, other) in [beside, below].into_iter().enumerate() {
+                if let Some(other) = other {
+                    runs[axis][0] += f64::from(u8::from(here != other));
+                    runs[axis][1] += 1.0;
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn frame(coverage: Vec<f32>) -> Frame {
+        let colour = coverage.iter().map(|&share| [share; 3]).collect();
+        let touched = vec![true; coverage.len()];
+        Frame { picture: Picture { size: [16, 16], colour, coverage }, touched, ..Frame::default() }
+    }
+
+    fn stripes(period: usize) -> Vec<f32> {
+        (0..256).map(|at| f32::from(u8::from((at % 16 / period).is_multiple_of(2)))).collect()
+    }
+
+    const SHOT: Shot = Shot { cause: Cause::All, distance: 1.0 };
+
+    #[test]
+    fn a_picture_that_is_the_truth_has_no_error_and_one_that_is_not_has() {
+        let truth = frame(stripes(2)).picture;
+        let mut metrics = Metrics::default();
+        for (coverage, right) in [(stripes(2), true), (stripes(1), false)] {
+            let mut measured = Measured::default();
+            measured.begin();
+            measured.add(&frame(coverage), Some(&truth), Asked::default());
+            measured.end(&SHOT, &mut metrics);
+            assert_eq!(metrics["rmse"] == 0.0 && metrics["rmse_of_mean"] == 0.0, right);
+            assert_eq!((metrics["ssim"] - 1.0).abs() < 1e-9, right, "{}", metrics["ssim"]);
+            assert_eq!(metrics["coverage_ratio"], 1.0);
+        }
+        assert!(!metrics.contains_key("flips") && !metrics.contains_key("layer_correlation"));
+    }
+
+    #[test]
+    fn ghosts_and_swings_are_measured_of_takes_that_mix_frames() {
+        let (mut measured, mut metrics) = (Measured::default(), Metrics::default());
+        let asked = Asked { ghosts: true, ..Asked::default() };
+        measured.begin();
+        for share in [0.9, 0.2, 0.3, 0.2, 0.3, 0.2, 0.3, 0.2, 0.3] {
+            let mut half = frame(vec![share; 256]);
+            half.touched[..64].fill(false);
+            measured.add(&half, None, asked);
+        }
+        measured.end(&SHOT, &mut metrics);
+        assert!((metrics["ghosting"] - 0.25).abs() < 1e-6);
+        // The first of nine frames counts no more.
+        assert!((metrics["swing"] - 0.1).abs() < 1e-6);
+    }
+
+    #[test]
+    fn regions_are_measured_alone() {
+        let region = |name: &str, corner, size| Region { name: name.to_owned(), corner, size };
+        let regions = [region("left", [0, 3], [1, 9]), region("beyond", [2, 8], [40, u32::MAX])];
+        let (mut measured, mut metrics) = (Measured::new(&regions, None), Metrics::default());
+        measured.begin();
+        measured.add(&frame(stripes(1)), Some(&frame(stripes(2)).picture), Asked::default());
+        measured.end(&SHOT, &mut metrics);
+        assert_eq!((metrics["coverage.left"], metrics["coverage_ratio.left"]), (1.0, 1.0));
+        assert_eq!((metrics["coverage.beyond"], metrics["coverage"]), (0.5, 0.5));
+        assert_eq!(metrics["coverage_ratio.beyond"], 7.0 / 6.0);
+    }
+
+    #[test]
+    fn runs_and_flips_are_counted() {
+        let mut measured = Measured::default();
+        let mut metrics = Metrics::default();
+        measured.begin();
+        measured.add(&frame(stripes(2)), None, Asked::default());
+        measured.add(&frame(stripes(2).iter().map(|share| 1.0 - share).collect()), None, Asked::default());
+        measured.end(&SHOT, &mut metrics);
+        assert_eq!(metrics["flips"], 1.0);
+        // Every pixel changes, half of them are covered.
+        assert_eq!(metrics["changed"], 2.0);
+        // Seven edges among fifteen neighbours of a row; no edge along a column.
+        assert!((metrics["run_x"] - 15.0 / 7.0).abs() < 1e-12);
+        assert_eq!(metrics["run_y"], 480.0);
+    }
+}
