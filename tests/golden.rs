@@ -59,7 +59,7 @@ fn numbers(evidence: &Evidence) -> Vec<String> {
         Evidence::Pairs { side, counts } => {
             [*side as u64].iter().chain(counts).map(ToString::to_string).collect()
         }
-        Evidence::Comparison(points) | Evidence::Quantity { points, .. } => of_points(points),
+        Evidence::Shares { points, .. } | Evidence::Quantity { points, .. } => of_points(points),
     }
 }
 

@@ -9,7 +9,6 @@ use crate::check::input::motion::Motion;
 use crate::check::input::sample::{general_scenes, placement, sighting};
 use crate::check::predict::slope::largest_change;
 use crate::check::subject::Precision;
-use crate::check::tolerance::{EXPLAINED, TABLE_POINTS};
 use crate::check::{Draw, Subject};
 use crate::scene::Fragment;
 use crate::threshold::footprint::Footprint;
@@ -17,6 +16,13 @@ use crate::threshold::hash::HashKind;
 use crate::threshold::robust::Robust;
 use crate::threshold::two_scale::Variant;
 use glam::{DVec2, DVec3};
+
+/// Points that are followed for one cell of the table of coordinates: a share is known to a hundredth.
+const TABLE_POINTS: usize = 1 << 11;
+
+/// The largest change of a threshold that the change of its scale may explain in that table: two thresholds that have
+/// nothing to do with each other are nearer than this in one case of four.
+const EXPLAINED: f64 = 0.125;
 
 /// A kind of coordinates, a row of the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -16,7 +16,12 @@ pub enum Evidence {
         counts: Vec<u64>,
     },
     /// Measured shares beside those that are predicted.
-    Comparison(Vec<ComparedShare>),
+    Shares {
+        /// What `x` is, with its unit in brackets.
+        abscissa: &'static str,
+        /// The shares.
+        points: Vec<ComparedShare>,
+    },
     /// Measured values of any quantity beside those that are predicted.
     Quantity {
         /// What `x` is, with its unit in brackets.

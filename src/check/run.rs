@@ -3,11 +3,15 @@
 use super::claim::Claim;
 use super::claims;
 use super::results::{Results, Suite};
-use super::tolerance::{FAMILY_LEVEL, SUSPICION};
+use super::tolerance::FAMILY_LEVEL;
 use super::trial::{Attempt, Conclusion, Trial};
-use super::{Budget, Draw, Outcome, Subject, Verdict, known};
+use super::{Budget, Draw, Outcome, Subject, Verdict};
 use crate::stats::sequential::{self, Finding};
 use rayon::prelude::*;
+
+/// Corrected p-value up to which a claim is suspect and tried again with fresh inputs: one sound run in a hundred pays
+/// for a second try.
+pub const SUSPICION: f64 = 1.0e-2;
 
 /// Tries every claim on one subject, with seed 0.
 ///
@@ -126,7 +130,8 @@ fn outcome(
         anchor: claim.anchor,
         statement: claim.statement,
         subject: subject.name.clone(),
-        precision: subject.precision.name(),
+        variant: subject.variant,
+        precision: subject.precision,
         verdict,
         expected: claim.expected,
         statistic: trial.statistic,
@@ -139,9 +144,8 @@ fn outcome(
         effect_name: trial.effect_name,
         detectable: trial.detectable,
         seed: draw.seed,
-        finding: (verdict != Verdict::Consistent).then_some(trial.seen),
+        seen: (verdict != Verdict::Consistent).then_some(trial.seen),
         known: None,
-        listing_fails: known::of_listing(claim.id, subject.variant, subject.precision),
         evidence: trial.evidence,
     }
 }
@@ -187,7 +191,7 @@ mod tests {
             let found = outcomes(&[weak]).remove(0);
             assert_eq!(found.verdict, Verdict::Inconclusive);
             let expected = format!("100 samples are too few; this claim needs {needed}");
-            assert_eq!(found.finding, Some(expected));
+            assert_eq!(found.seen, Some(expected));
         }
         // What is seen all the same counts.
         weak.run = |_, _| Ok(says(1e-9, 100));
@@ -206,7 +210,7 @@ mod tests {
             Subject::batched("gone", Precision::F32, Variant::Isotropic, |_| Err("device lost".into()));
         for outcome in run_claims(&[asks, asks], &[broken], &Draw::default(), || {}) {
             assert_eq!(outcome.verdict, Verdict::Unavailable);
-            assert_eq!(outcome.finding.as_deref(), Some("device lost"));
+            assert_eq!(outcome.seen.as_deref(), Some("device lost"));
         }
     }
 }

@@ -1,9 +1,9 @@
 //! The outcomes as one page: no scripts, nothing from elsewhere, pictures in files beside it.
 
-use super::answer;
 use super::text::{number, remark, summary};
 use crate::check::diagnosis::{Diagnosis, diagnoses};
-use crate::check::{Outcome, Verdict};
+use crate::check::outcome::worst;
+use crate::check::{Outcome, Standing};
 use minijinja::value::Serde;
 use minijinja::{Environment, context};
 use serde::Serialize;
@@ -32,6 +32,8 @@ struct Claim<'a> {
     precision: &'a str,
     verdict: &'static str,
     class: &'static str,
+    #[serde(skip)]
+    standing: Standing,
     remark: Option<String>,
     n: u64,
     statistic: String,
@@ -83,12 +85,12 @@ fn overview<'a>(claims: &[Claim<'a>]) -> (Vec<String>, Vec<Row<'a>>) {
 }
 
 fn cell(claim: &Claim<'_>) -> Cell {
-    let sign = match claim.class {
-        "good" => "✓",
-        "bad" => "✗",
-        "known" => "(✗)",
-        "open" => "?",
-        _ => "–",
+    let sign = match claim.standing {
+        Standing::AsExpected => "✓",
+        Standing::Against => "✗",
+        Standing::Known => "(✗)",
+        Standing::Unanswered => "?",
+        Standing::NotApplicable => "–",
     };
     Cell { id: claim.id.clone(), class: claim.class, verdict: claim.verdict, sign }
 }
@@ -113,13 +115,11 @@ pub fn page(
     let (subjects, rows) = overview(&claims);
     let mut listed: Vec<&Claim<'_>> = claims.iter().collect();
     // What needs a reader comes first.
-    listed.sort_by_key(|claim| {
-        ["bad", "open", "known"].iter().position(|class| *class == claim.class).unwrap_or(3)
-    });
-    let (headline, class) = headline(outcomes);
+    listed.sort_by_key(|claim| claim.standing.min(Standing::AsExpected));
+    let (headline, standing) = headline(outcomes);
     environment.get_template(TEMPLATE)?.render(context! {
         headline,
-        class,
+        class => class(standing),
         summary => summary(outcomes),
         command => run.command.as_str(),
         // As text: a template engine may hold numbers as `f64`.
@@ -133,16 +133,17 @@ pub fn page(
 }
 
 fn claim<'a>(index: usize, outcome: &'a Outcome, picture: Option<&'a str>) -> Claim<'a> {
-    let verdict = answer(outcome);
+    let (verdict, standing) = (outcome.answer(), outcome.standing());
     Claim {
         id: format!("claim-{}", index + 1),
         check: outcome.check,
         anchor: outcome.anchor,
         statement: outcome.statement,
         subject: &outcome.subject,
-        precision: outcome.precision,
+        precision: outcome.precision.name(),
         verdict,
-        class: class(outcome),
+        class: class(standing),
+        standing,
         remark: remark(outcome),
         n: outcome.n,
         statistic: number(outcome.statistic),
@@ -182,38 +183,41 @@ fn lookalikes(outcomes: &[Outcome]) -> Vec<Lookalike> {
     diagnoses(outcomes).into_iter().flat_map(of_subject).collect()
 }
 
-/// The class of a badge: what a reader should make of the outcome.
-fn class(outcome: &Outcome) -> &'static str {
-    match outcome.verdict {
-        Verdict::NotApplicable => "idle",
-        _ if outcome.as_expected() => "good",
-        Verdict::Rejected if outcome.known.is_some() => "known",
-        Verdict::Consistent | Verdict::Rejected => "bad",
-        Verdict::Inconclusive | Verdict::Unavailable => "open",
+/// The style of a badge.
+const fn class(standing: Standing) -> &'static str {
+    match standing {
+        Standing::Against => "bad",
+        Standing::Unanswered => "open",
+        Standing::Known => "known",
+        Standing::AsExpected => "good",
+        Standing::NotApplicable => "idle",
     }
 }
 
-/// Returns the answer in one sentence, and its class.
-fn headline(outcomes: &[Outcome]) -> (String, &'static str) {
-    let of = |wanted: &str| outcomes.iter().filter(|outcome| class(outcome) == wanted).count();
+/// Returns the answer in one sentence, and what it is worth.
+fn headline(outcomes: &[Outcome]) -> (String, Standing) {
+    let of = |wanted: Standing| outcomes.iter().filter(|outcome| outcome.standing() == wanted).count();
     let all = outcomes.len();
-    let verb = |n: usize| if n == 1 { "is" } else { "are" };
-    match (of("bad"), of("open"), of("good")) {
-        (0, 0, _) if of("known") > 0 => {
-            (format!("All {all} claims are as expected, {} of them known findings", of("known")), "known")
+    let worst = worst(outcomes);
+    let text = match worst {
+        Standing::Against => {
+            let bad = of(worst);
+            format!("{bad} of {all} claims {} not as expected", if bad == 1 { "is" } else { "are" })
         }
-        (0, 0, 0) => ("Nothing was tried".to_owned(), "idle"),
-        (0, 0, 1) => ("1 claim is as expected".to_owned(), "good"),
-        (0, 0, good) => (format!("All {good} claims are as expected"), "good"),
-        (0, open, _) => (format!("There is no verdict on {open} of {all} claims"), "open"),
-        (bad, _, _) => (format!("{bad} of {all} claims {} not as expected", verb(bad)), "bad"),
-    }
+        Standing::Unanswered => format!("There is no verdict on {} of {all} claims", of(worst)),
+        Standing::Known => format!("All {all} claims are as expected, {} of them known findings", of(worst)),
+        Standing::AsExpected if of(worst) == 1 => "1 claim is as expected".to_owned(),
+        Standing::AsExpected => format!("All {} claims are as expected", of(worst)),
+        Standing::NotApplicable => "Nothing was tried".to_owned(),
+    };
+    (text, worst)
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::example;
     use super::*;
+    use crate::check::Verdict;
 
     fn run() -> Run {
         Run { command: "hashed-alpha check '<b>'".to_owned(), seed: u64::MAX, version: "0.1.0".to_owned() }
@@ -279,9 +283,12 @@ mod tests {
     #[test]
     fn headline_names_the_worst() {
         let all = example::outcomes();
-        assert_eq!(headline(&all[..1]), ("1 claim is as expected".to_owned(), "good"));
-        assert_eq!(headline(&all[4..]), ("There is no verdict on 2 of 3 claims".to_owned(), "open"));
-        assert_eq!(headline(&all[1..2]), ("1 of 1 claims is not as expected".to_owned(), "bad"));
-        assert_eq!(headline(&all[6..]), ("Nothing was tried".to_owned(), "idle"));
+        assert_eq!(headline(&all[..1]), ("1 claim is as expected".to_owned(), Standing::AsExpected));
+        assert_eq!(
+            headline(&all[4..]),
+            ("There is no verdict on 2 of 3 claims".to_owned(), Standing::Unanswered)
+        );
+        assert_eq!(headline(&all[1..2]), ("1 of 1 claims is not as expected".to_owned(), Standing::Against));
+        assert_eq!(headline(&all[6..]), ("Nothing was tried".to_owned(), Standing::NotApplicable));
     }
 }

@@ -230,7 +230,7 @@ fn coordinates_row(kind: Coordinates) -> Measured {
 }
 
 /// Pixels by which a frame of motion moves the middle of the image in the table of coordinates.
-const MOTION_PIXELS: f64 = hashed_alpha::check::tolerance::MOTION_PIXELS;
+const MOTION_PIXELS: f64 = hashed_alpha::check::input::motion::MOTION_PIXELS;
 
 /// How many times as far as in the table a surface is that counts as far.
 const FAR: f64 = 100.0;

@@ -3,13 +3,26 @@
 use crate::check::claim::{Claim, Promise};
 use crate::check::input::cell::at_scale;
 use crate::check::judge::counts::detectable_factor;
-use crate::check::tolerance::{ATOM_BLOCK, ATOM_THRESHOLD, END, END_LAYERS, POWER, SINGLE_LEVEL, SPREAD};
+use crate::check::tolerance::{POWER, SINGLE_LEVEL, SPREAD};
 use crate::check::trial::{Attempt, Conclusion, Trial, reject_outsiders};
 use crate::check::{Draw, Evidence, Subject, Verdict};
 use crate::stats::{binomial, power, seed};
 use crate::threshold::footprint::Footprint;
 use glam::{DVec3, dvec3};
 use rand::rngs::Xoshiro256PlusPlus;
+
+/// The threshold up to which values are counted: ten times the clamp of the listings, a hundred steps of the lattice.
+const ATOM_THRESHOLD: f64 = 1.0e-5;
+
+/// Cells of the block in which they are counted: 2^20 in all, ten expected values; sees a rate six times too high, a
+/// seventh of that of the `f32` sine hash.
+const ATOM_BLOCK: [u32; 3] = [64, 128, 128];
+
+/// An end of the range: one step of the coarsest grid of the `f32` sine hash.
+const END: f64 = 1.0 / 1024.0;
+
+/// Layers of the block of cells in which the ends are counted: 256 expected at each end.
+const END_LAYERS: u32 = ATOM_BLOCK[2] / 4;
 
 /// Thresholds next to zero, which keep what is all but transparent.
 pub const ZERO: Claim = Claim {

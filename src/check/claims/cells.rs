@@ -4,10 +4,7 @@ use crate::check::claim::{Claim, Promise};
 use crate::check::evidence::NamedHistogram;
 use crate::check::input::cell::{at_scale, draw_cell};
 use crate::check::input::sample::UsedCells;
-use crate::check::tolerance::{
-    BINS, DRAWS_A_SAMPLE, FAMILY_LEVEL, MIRROR_PAIRS, ORIGIN_OCTAVES, POWER, SINGLE_LEVEL, WINDOW_OFFSETS,
-    WINDOW_SAMPLES, WINDOW_SIZE,
-};
+use crate::check::tolerance::{BINS, DRAWS_A_SAMPLE, FAMILY_LEVEL, POWER, SINGLE_LEVEL};
 use crate::check::trial::{Attempt, Conclusion, Trial, reject_outsiders};
 use crate::check::{Draw, Evidence, Subject, Verdict};
 use crate::stats::chi_square::{self, ChiSquare};
@@ -16,6 +13,21 @@ use crate::stats::{correlation, ecdf, power, seed};
 use crate::threshold::footprint::Footprint;
 use glam::{DVec3, dvec3};
 use rand::rngs::Xoshiro256PlusPlus;
+
+/// Octaves in which the surroundings of the origin are seen: as many as leave the squares of `f32` derivatives finite.
+const ORIGIN_OCTAVES: core::ops::Range<i32> = -32..32;
+
+/// Cells between the origin and a window: from 2^24 on `f32` has no neighbouring cells.
+const WINDOW_OFFSETS: [f64; 5] = [0.0, 4096.0, 65_536.0, 1_048_576.0, 8_388_608.0];
+
+/// Cells of a window along each axis: flat enough that a bias of single layers of z shows where it grows.
+const WINDOW_SIZE: [f64; 3] = [2048.0, 2048.0, 16.0];
+
+/// Samples in each window: 2048 a layer, which shows when the layers have fewer than 750 different values each.
+const WINDOW_SAMPLES: usize = 1 << 15;
+
+/// Pairs of a cell and its image: sees a correlation of 0.035.
+const MIRROR_PAIRS: usize = 1 << 16;
 
 /// The law around the object's origin, over its distances.
 pub const ORIGIN: Claim = Claim {

@@ -10,10 +10,7 @@ use crate::check::input::sample::{UsedCells, placement};
 use crate::check::input::view::{tangents, tilted, turned, zoomed};
 use crate::check::predict::slope::{largest_change, log_scale, octaves_between};
 use crate::check::subject::{Nominal, Precision};
-use crate::check::tolerance::{
-    BOUNDARY_OCTAVES, BOUNDARY_POINTS, BOUNDARY_ULPS, LOG_SCALE_STEP, OTHER_AXES, SWEEP_POINTS, TILT_OCTAVES,
-    TURN_STEP, ZOOM_OCTAVES,
-};
+use crate::check::tolerance::TILT_OCTAVES;
 use crate::check::trial::{Attempt, Conclusion, Trial, describe, detectable_share, reject_outsiders};
 use crate::check::{Draw, Evidence, Subject, Verdict};
 use crate::stats::{binomial, seed};
@@ -23,6 +20,31 @@ use crate::threshold::two_scale::Variant;
 use core::f64::consts::FRAC_PI_2;
 use glam::{DVec3, dvec3};
 use rand::rngs::Xoshiro256PlusPlus;
+
+/// Points whose thresholds are followed under zoom, rotation and tilt: a pop in one of 200 points and octaves shows.
+const SWEEP_POINTS: usize = 64;
+
+/// Octaves that the scale goes through under zoom: three powers of two along each axis.
+const ZOOM_OCTAVES: f64 = 3.0;
+
+/// Octaves between two views: the steepest join then moves by less than 0.02 a step, where a pop has a mean of 1/3.
+const LOG_SCALE_STEP: f64 = 1.0 / 2048.0;
+
+/// Radians between two views of a turn; no scale moves by more than log2(e) octaves a radian.
+const TURN_STEP: f64 = 1.0 / 3072.0;
+
+/// Octaves at whose beginning the threshold is followed: indices in them have one to three digits.
+const BOUNDARY_OCTAVES: core::ops::RangeInclusive<i32> = -2..=6;
+
+/// Points at each power of two: log2 and its floor disagree within few roundings, and at every point if at any.
+const BOUNDARY_POINTS: usize = 1 << 11;
+
+/// Roundings on each side of a power of two: log2 in `f32` rounds up to two of them to the power up to 2^8.
+const BOUNDARY_ULPS: i32 = 8;
+
+/// Octaves by which the other axes are finer there: both derivatives together stay shorter than the first, and no
+/// shorter than the 2^-5 at which a floor would tie them to it.
+const OTHER_AXES: [f64; 2] = [0.6, 3.0];
 
 /// No pops while the camera comes closer.
 pub const ZOOM: Claim = Claim {

@@ -10,16 +10,32 @@ use crate::check::input::sample::{general_scenes, independent};
 use crate::check::judge::shares::detectable_error;
 use crate::check::predict::pair_law::PairLaw;
 use crate::check::subject::Nominal;
-use crate::check::tolerance::{
-    BLOCK_SIDE, BLOCKS_A_PATCH, COVERAGE_ALPHAS, COVERAGE_BLOCKS, COVERAGE_SAMPLES, POWER, SINGLE_LEVEL,
-    TILT_STRETCH, VARIANCE_ALPHAS,
-};
+use crate::check::tolerance::{POWER, SINGLE_LEVEL, TILT_STRETCH};
 use crate::check::trial::{Attempt, Conclusion, Trial, reject_outsiders};
 use crate::check::{Draw, Evidence, Subject, Verdict};
 use crate::scene::{Fragment, Scene};
 use crate::stats::variance::Variance;
 use crate::stats::{binomial, power};
 use glam::DVec2;
+
+/// Samples of each surface on which coverage is measured: every share is known to 0.3 %.
+const COVERAGE_SAMPLES: usize = 1 << 15;
+
+/// Alphas at which coverage is measured on each surface, among them those of a thin and of a dense texture.
+const COVERAGE_ALPHAS: [f64; 4] = [0.1, 0.3, 0.5, 0.9];
+
+/// Blocks whose coverage is compared with each other: a variance is known to 3 % on either side of lerp factor 1/2.
+const COVERAGE_BLOCKS: usize = 1 << 12;
+
+/// Blocks that share a patch, each at a place of its own.
+const BLOCKS_A_PATCH: usize = 16;
+
+/// Places along a side of a block, half the claimed size of the noise apart: a block holds some thirty cells, so that its
+/// mean is near normal.
+const BLOCK_SIDE: usize = 12;
+
+/// Alphas at which the variance is measured: the kurtosis of a kept cell is then negative, which errs on the safe side.
+const VARIANCE_ALPHAS: [f64; 3] = [0.3, 0.5, 0.7];
 
 /// Share kept on each surface in general position.
 pub const MEAN: Claim = Claim {

@@ -2,13 +2,22 @@
 //! surfaces so far from the origin that neighbouring pixels have the same position.
 
 use crate::check::claim::{Claim, Promise};
-use crate::check::tolerance::{FAR_COORDINATES, FAR_FOOTPRINTS, FAR_QUADS};
 use crate::check::trial::{Attempt, Conclusion, Trial, describe, detectable_share};
 use crate::check::{Draw, Evidence, Subject, Verdict};
 use crate::stats::seed::uniform01;
 use crate::threshold::footprint::Footprint;
 use glam::{DVec3, Vec3, vec3};
 use rand::rngs::Xoshiro256PlusPlus;
+
+/// Distances from the origin at which `f32` positions are tried, in object units: a large level, a city, a country.
+const FAR_COORDINATES: [f32; 3] = [1.0e4, 1.0e5, 1.0e6];
+
+/// Sizes of a pixel there, in units in the last place of the coordinate: from quads with one position to quads with a
+/// derivative of one or two units.
+const FAR_FOOTPRINTS: [f64; 4] = [0.05, 0.2, 0.5, 1.5];
+
+/// Quads of each size at each distance: a share is known to a hundredth.
+const FAR_QUADS: usize = 1 << 13;
 
 /// A table of degenerate footprints; no chance in it.
 pub const DEGENERATE: Claim = Claim {

@@ -3,11 +3,16 @@
 use crate::check::claim::{Claim, Promise};
 use crate::check::input::sample::fragments_everywhere;
 use crate::check::judge::equality::{differing, equality};
-use crate::check::tolerance::{ALONE, PIECE};
 use crate::check::trial::{Attempt, Trial};
 use crate::check::{Draw, Subject, Verdict};
 use crate::scene::Fragment;
 use crate::threshold::footprint::Footprint;
+
+/// Points that are evaluated one by one.
+const ALONE: usize = 64;
+
+/// Fragments of a second pass that are evaluated together: neither a power of two nor a row of the first.
+const PIECE: usize = 37;
 
 /// A depth pass and the colour pass after it decide alike.
 pub const TWO_PASSES: Claim = Claim {

@@ -3,9 +3,7 @@
 use crate::check::claim::{Claim, Promise};
 use crate::check::input::sample::{Sighting, general_scenes, independent, placement, sighting};
 use crate::check::subject::Precision;
-use crate::check::tolerance::{
-    CDF_ROUNDING, CELL_MOTION, CELL_PAIRS, CELL_WEIGHTS, DRAWS_A_PLACE, FORMULA_SAMPLES, MEETING,
-};
+use crate::check::tolerance::{DRAWS_A_PLACE, MEETING};
 use crate::check::trial::{Attempt, Conclusion, Trial, detectable_share};
 use crate::check::{Draw, Evidence, Subject, Verdict};
 use crate::scene::Fragment;
@@ -15,6 +13,22 @@ use crate::threshold::cdf::cdf;
 use crate::threshold::robust::Join;
 use glam::{DVec3, dvec3};
 use rand::rngs::Xoshiro256PlusPlus;
+
+/// Pairs of a point before and after a motion: about half stay in their cells.
+const CELL_PAIRS: usize = 1 << 16;
+
+/// The largest motion along an axis, in sides of the fine cell: three in five points stay in a cell of three axes.
+const CELL_MOTION: f64 = 0.3;
+
+/// Weights at which the change of either cell shows in the last bits of an `f32`.
+const CELL_WEIGHTS: core::ops::RangeInclusive<f64> = 0.01..=0.99;
+
+/// Samples of which Eq. 2 is computed again.
+const FORMULA_SAMPLES: usize = 1 << 16;
+
+/// How far a threshold may be from Eq. 2, in `f32` and `f64`: the clamp at 1e-6, and a dozen roundings of a number below
+/// 1 for the logarithm, the weight and the formula.
+const CDF_ROUNDING: [f64; 2] = [1.0 / 524_288.0, 1.0e-6];
 
 /// The threshold changes exactly where the position enters another cell.
 pub const CELLS: Claim = Claim {

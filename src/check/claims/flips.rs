@@ -12,10 +12,7 @@ use crate::check::input::view::{tangents, tilted, turned, zoomed};
 use crate::check::judge::shares::detectable_error;
 use crate::check::predict::flips::flip_between;
 use crate::check::predict::pair_law::PairLaw;
-use crate::check::tolerance::{
-    ALPHAS, FINE_VIEWS, FLIP_POINTS, FLIP_SAMPLES, FLIP_SHIFTS, FLIP_STEPS, POWER, SINGLE_LEVEL,
-    SKINNED_FRAMES, TILT_OCTAVES, WIDE,
-};
+use crate::check::tolerance::{ALPHAS, POWER, SINGLE_LEVEL, TILT_OCTAVES, WIDE};
 use crate::check::trial::{Attempt, Conclusion, Trial, reject_outsiders};
 use crate::check::{Draw, Evidence, Subject, Verdict};
 use crate::scene::Fragment;
@@ -24,6 +21,27 @@ use crate::threshold::footprint::Footprint;
 use core::f64::consts::FRAC_PI_2;
 use glam::DVec3;
 use rand::rngs::Xoshiro256PlusPlus;
+
+/// Shifts in pixels after which flips are counted: one at which half of the changes are soft, one beyond the fine cell.
+const FLIP_SHIFTS: [f64; 2] = [0.125, 0.6];
+
+/// Samples at each shift, screen axis and scene: a soft change that is counted as a hard one doubles a share of 0.1.
+const FLIP_SAMPLES: usize = 1 << 15;
+
+/// How much smaller the cells are than those of [`FINEST_VIEW`] where only the view of a point changes: again 10^5
+/// intervals. Much smaller ones would be so for the coordinates that the robust threshold raises them.
+const FINE_VIEWS: f64 = 256.0;
+
+/// Points whose flips are counted over a whole motion: a flip more in 25 points and octaves shows; leaving out Eq. 2
+/// takes away one in 12 at an alpha of 0.1.
+const FLIP_POINTS: usize = 1 << 14;
+
+/// Views of a point less one: few passages of alpha fall between two of them in twos. The prediction is about the views
+/// themselves and does not count those either.
+const FLIP_STEPS: usize = 16;
+
+/// Frames over which a skinned surface bends: 0.32 radians of its bone, half an octave and more where it bends most.
+const SKINNED_FRAMES: f64 = 16.0;
 
 /// Flips under a shift by a part of a pixel: soft and hard changes.
 pub const TRANSLATION: Claim = Claim {

@@ -6,14 +6,31 @@ use crate::check::input::sample::{fragments_everywhere, general_scenes, placemen
 use crate::check::judge::equality::{differing, equality};
 use crate::check::judge::shares::detectable_error;
 use crate::check::predict::pair_law::PairLaw;
-use crate::check::tolerance::{
-    ALPHAS, DRIFT, FRAME_LAGS, FRAME_POINTS, FRAMES, NEWEST, STRATUM_ROUNDING, WIDE,
-};
+use crate::check::tolerance::{ALPHAS, WIDE};
 use crate::check::trial::{Attempt, Conclusion, Trial, detectable_share, reject_outsiders};
 use crate::check::{Draw, Evidence, Subject, Verdict};
 use crate::scene::Fragment;
 use crate::stats::normal;
 use std::collections::HashMap;
+
+/// Frames at which a static threshold is asked: neighbours, powers of two, the last one; or as many periods.
+const FRAMES: [u32; 6] = [0, 1, 2, 7, 1024, u32::MAX];
+
+/// What roundings of `f32` leave between two thresholds of one point in different strata: the sum, the part after the
+/// point and the clamp at 2^-24.
+const STRATUM_ROUNDING: f64 = 1.0 / 4_194_304.0;
+
+/// Pixels by which the image moves in a frame or period where the noise of one pixel is followed.
+const DRIFT: f64 = 0.15;
+
+/// Frames or periods between two thresholds of one pixel: within the fine cell, across it, and beyond the coarse one.
+const FRAME_LAGS: [u32; 4] = [1, 2, 5, 16];
+
+/// Points at each lag and of each exponential average: a correlation of 0.05 shows.
+const FRAME_POINTS: usize = 1 << 15;
+
+/// Weight of the newest frame in an exponential average: that of common temporal antialiasing.
+const NEWEST: f64 = 0.1;
 
 /// A threshold knows of the frame where it stands among those over which it spreads, and a static one nothing.
 pub const STATIC: Claim = Claim {

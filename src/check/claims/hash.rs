@@ -5,10 +5,7 @@ use crate::check::evidence::NamedHistogram;
 use crate::check::input::cell::{at_scale, draw_cell};
 use crate::check::input::sample::UsedCells;
 use crate::check::judge::counts::detectable_factor;
-use crate::check::tolerance::{
-    BINS, DIFFERENCE_PAIRS, DRAWS_A_SAMPLE, FAR_PAIRS, MEETING_VALUES, PAIR_BINS, POWER, RESONANCE_PAIRS,
-    RESONANCES, SINGLE_LEVEL, VALUE_CELLS,
-};
+use crate::check::tolerance::{BINS, DRAWS_A_SAMPLE, FAR_PAIRS, PAIR_BINS, POWER, SINGLE_LEVEL};
 use crate::check::trial::{Attempt, Conclusion, Trial, reject_outsiders};
 use crate::check::{Draw, Evidence, Subject, Verdict};
 use crate::stats::histogram::Histogram;
@@ -16,6 +13,22 @@ use crate::stats::{binomial, chi_square, correlation, power};
 use crate::threshold::footprint::Footprint;
 use glam::{DVec3, dvec3};
 use rand::rngs::Xoshiro256PlusPlus;
+
+/// Pairs of neighbours whose difference is taken, along each of four directions: 1024 expected in every bin.
+const DIFFERENCE_PAIRS: usize = 1 << 16;
+
+/// Cells whose thresholds are compared with each other: 512 pairs meet at [`MEETING_VALUES`].
+const VALUE_CELLS: usize = 1 << 16;
+
+/// Share of pairs of cells that may have one threshold: four times that of a lattice of 2^24 values.
+const MEETING_VALUES: f64 = 1.0 / 4_194_304.0;
+
+/// Cells in x and y between which both phases of the sine hash, 17 x + 0.1 y and 13 y + x, advance by all but a whole
+/// number of half turns; its two-dimensional form has correlations up to 0.2 there.
+const RESONANCES: [[i32; 2]; 5] = [[355, 0], [710, 0], [3726, -232], [3460, -785], [2750, -785]];
+
+/// Pairs of cells at each resonance: shows a correlation of 0.03.
+const RESONANCE_PAIRS: usize = 1 << 16;
 
 /// A cell and the eight cells of the next octave that lie in it.
 pub const CHILDREN: Claim = Claim {

@@ -2,9 +2,7 @@
 
 use crate::check::claim::{Claim, Promise};
 use crate::check::input::sample::{UsedCells, general_scenes, placed, placement, sighting};
-use crate::check::tolerance::{
-    DRAWS_A_SAMPLE, LAYER_PAIRS, LAYER_SAMPLES, LEAST_LAYER_DISTANCE, PAIR_BINS, PLACEMENT,
-};
+use crate::check::tolerance::{DRAWS_A_SAMPLE, PAIR_BINS, PLACEMENT};
 use crate::check::trial::{Attempt, Conclusion, Trial, reject_outsiders};
 use crate::check::{Draw, Evidence, Subject, Verdict};
 use crate::scene::{Fragment, Rectangle, Scene};
@@ -12,6 +10,15 @@ use crate::stats::chi_square::{self, ChiSquare};
 use crate::stats::correlation;
 use crate::stats::seed::uniform01;
 use rand::rngs::Xoshiro256PlusPlus;
+
+/// Pairs of layers: the bias of the `f32` sine hash differs from one to the next.
+const LAYER_PAIRS: usize = 8;
+
+/// Samples of each pair of layers: 128 expected in every square.
+const LAYER_SAMPLES: usize = 1 << 15;
+
+/// Two layers are at least this far apart along z, in object units: many cells.
+const LEAST_LAYER_DISTANCE: f64 = 1.0;
 
 /// Pairs of thresholds at the same x and y on two planes of constant z.
 pub const PARALLEL: Claim = Claim {

@@ -6,11 +6,23 @@ use crate::check::input::patch::{Patch, Start};
 use crate::check::judge::replicate_means;
 use crate::check::judge::replicate_means::Mean;
 use crate::check::predict::redraw::redraw_probability;
-use crate::check::tolerance::{SCAN_LINES, SCAN_STEPS, STEPS_A_SIZE, TILT_STRETCH};
+use crate::check::tolerance::TILT_STRETCH;
 use crate::check::trial::{Attempt, Trial, reject_outsiders};
 use crate::check::{Draw, Evidence, Subject, Verdict};
 use glam::DVec2;
 use rand::rngs::Xoshiro256PlusPlus;
+
+/// Scan lines of each kind, along each screen axis: sees a size of the noise that is off by a tenth, which four hundred
+/// would not.
+const SCAN_LINES: usize = 1 << 10;
+
+/// Steps of a scan line, an eighth of the claimed size each: four times that size, so that lines of any patch change some
+/// cells and the count of changes is not all chance.
+const SCAN_STEPS: u32 = 32;
+
+/// Steps of a scan line within the claimed size: also the smallest cells, half of that size, are left by one step in
+/// four only.
+const STEPS_A_SIZE: f64 = 8.0;
 
 /// Mean run length on surfaces that face the camera.
 pub const FRONTAL: Claim = Claim {

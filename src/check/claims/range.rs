@@ -2,10 +2,12 @@
 
 use crate::check::claim::{Claim, Promise};
 use crate::check::input::sample::{placed, placement};
-use crate::check::tolerance::RANGE_RESOLUTION;
 use crate::check::trial::{Attempt, Conclusion, Trial, describe, detectable_share};
 use crate::check::{Draw, Evidence, Subject, Verdict};
 use crate::scene::{Fragment, Scene};
+
+/// Pixels of the image over which the range is tried.
+const RANGE_RESOLUTION: [u32; 2] = [256, 192];
 
 /// Every threshold is a number in (0, 1], so that alpha 0 never passes and alpha 1 always does.
 pub const RANGE: Claim = Claim {

@@ -13,9 +13,7 @@ use crate::check::judge::replicate_means;
 use crate::check::judge::replicate_means::Mean;
 use crate::check::predict::pair_law::PairLaw;
 use crate::check::subject::Nominal;
-use crate::check::tolerance::{
-    IMAGES_A_PATCH, LAGS, POWER, RINGS, SINGLE_LEVEL, SPECTRUM_IMAGES, SPECTRUM_SIDE, TILT_STRETCH,
-};
+use crate::check::tolerance::{POWER, SINGLE_LEVEL, TILT_STRETCH};
 use crate::check::trial::{Attempt, Conclusion, Trial, reject_outsiders};
 use crate::check::{Draw, Evidence, Subject, Verdict};
 use crate::scene::Fragment;
@@ -24,6 +22,22 @@ use crate::stats::{StatsError, autocorrelation, ecdf, fisher_g, power};
 use crate::threshold::cdf::MEAN;
 use glam::DVec2;
 use rand::rngs::Xoshiro256PlusPlus;
+
+/// Images of each kind of patch on each side of lerp factor 1/2: enough for a usable tail of Student's law, and to see a
+/// correlation that is off by a tenth, or half the power of the lowest frequencies missing.
+const SPECTRUM_IMAGES: usize = 64;
+
+/// Images that share a patch, each at a place of its own: the expected spectrum costs more than an image.
+const IMAGES_A_PATCH: usize = 4;
+
+/// Pixels along a side of an image, one claimed size of the noise apart: 256 cells or more.
+const SPECTRUM_SIDE: usize = 32;
+
+/// Lags along each axis up to which the autocorrelation is tried, in claimed sizes: a cell is at most two sizes long.
+const LAGS: i64 = 4;
+
+/// Rings of frequencies from 0 to half a cycle for each claimed size: the first has eleven ordinates an image.
+const RINGS: usize = 6;
 
 /// Correlation of pixels at each lag.
 pub const AUTOCORRELATION: Claim = Claim {

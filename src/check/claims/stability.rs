@@ -5,10 +5,16 @@ use crate::check::evidence::ComparedShare;
 use crate::check::input::sample::{general_scenes, placement, sighting};
 use crate::check::judge::shares::detectable_error;
 use crate::check::predict::redraw::Changes;
-use crate::check::tolerance::{SHIFT_SAMPLES, SHIFTS, WIDE};
+use crate::check::tolerance::WIDE;
 use crate::check::trial::{Attempt, Conclusion, Trial, reject_outsiders};
 use crate::check::{Draw, Evidence, Subject, Verdict};
 use crate::scene::Scene;
+
+/// Samples at each shift, screen axis and scene: tells a change of 0.01 in any share at the single level and power.
+const SHIFT_SAMPLES: usize = 1 << 16;
+
+/// Shifts in pixels at which stability is tried; all sub-pixel, two of them below the fine cell at every lerp factor.
+const SHIFTS: [f64; 4] = [0.05, 0.125, 0.25, 0.5];
 
 /// Share of thresholds that a translation along the screen changes.
 pub const TRANSLATE: Claim = Claim {
@@ -101,6 +107,6 @@ fn translate_over(subject: &Subject<'_>, scenes: Vec<Scene>, draw: &Draw, claim:
         effect_name: "error in the share that changes",
         detectable: detectable_error(&points),
         seen,
-        evidence: Evidence::Comparison(points),
+        evidence: Evidence::Shares { abscissa: "shift [pixels]", points },
     })
 }

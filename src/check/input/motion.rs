@@ -1,8 +1,16 @@
 //! Motions of camera and object, frame by frame.
 
-use crate::check::tolerance::{MOTION_PIXELS, TURN_A_FRAME, WAVE};
 use crate::scene::{Camera, Fragment, Rectangle, posed};
 use glam::{DQuat, DVec3, dvec3};
+
+/// Pixels by which a frame of motion moves the image: three cells or more at every lerp factor.
+pub const MOTION_PIXELS: f64 = 3.0;
+
+/// Radians by which a frame of motion turns an object or rolls a camera.
+const TURN_A_FRAME: f64 = 0.02;
+
+/// Radians per object unit of the wave that deforms an object and weighs its bones: a quarter of a period in a unit.
+const WAVE: [f64; 3] = [1.3, 0.9, -0.7];
 
 /// What moves, a column of the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -5,13 +5,21 @@
 
 use crate::check::Subject;
 use crate::check::input::sample::placement;
-use crate::check::tolerance::{LEAST_AXIS_SHARE, PATCH_OCTAVES, PLACEMENT, WIDE};
+use crate::check::tolerance::{PLACEMENT, WIDE};
 use crate::scene::Fragment;
 use crate::stats::seed::uniform01;
 use crate::threshold::footprint::Footprint;
 use core::f64::consts::TAU;
 use glam::{DMat3, DQuat, DVec2, DVec3, dvec2};
 use rand::rngs::Xoshiro256PlusPlus;
+
+/// Derivatives of a patch times its hash scale lie in the octave from this one on: coarse cells of 2^-5 units, a
+/// thousandth of a cell being five roundings of an `f32` position within [`WIDE`] times [`PLACEMENT`].
+const PATCH_OCTAVES: f64 = -6.0;
+
+/// No object axis of a patch has less than this share of the largest derivative: twice the share to which the robust
+/// threshold raises it.
+const LEAST_AXIS_SHARE: f64 = 1.0 / 16.0;
 
 /// Pixels along each side of the screen on which patches are seen.
 const SCREEN: f64 = 1024.0;

@@ -1,9 +1,11 @@
 //! Views of a point that stays where it is: only its derivatives change.
 
-use crate::check::tolerance::FINEST_VIEW;
 use crate::stats::seed;
 use glam::{DVec2, DVec3, dvec3};
 use rand::rngs::Xoshiro256PlusPlus;
+
+/// Octave from which the views of a sweep begin: cells of an eighth of a unit, of which [`PLACEMENT`] holds a million.
+const FINEST_VIEW: f64 = 3.0;
 
 /// Draws two tangents of one length, at right angles, in any direction.
 pub(crate) fn tangents(rng: &mut Xoshiro256PlusPlus) -> [DVec3; 2] {

@@ -2,9 +2,24 @@
 
 use crate::check::Subject;
 use crate::check::subject::{Nominal, Precision};
-use crate::check::tolerance::{COPULA_SLOPE, COPULA_SLOPE_OF_AN_AXIS, INTERPOLATION_SLOPE, POP_ROUNDING};
 use crate::threshold::robust::Join;
 use crate::threshold::two_scale::Variant;
+
+/// Most that interpolation moves per octave of the scale. Eq. 2: |d tau / d l| <= 1 / (2 (1 - a)^2) <= 2; the weight of
+/// Listing 2 moves by at most |d f| / sqrt 3, since the distances to two opposite corners add up to sqrt 3 or more.
+const INTERPOLATION_SLOPE: f64 = 2.0;
+
+/// Most that the copula of two cells moves per octave: phi(0) Q / ((1 - l)^2 + l^2)^(3/2), with quantiles up to
+/// Q = 5.42 for hashes that keep 2^-25 away from 0 and 1; 6.12 at l = 1/2.
+const COPULA_SLOPE: f64 = 6.2;
+
+/// Most that the copula of eight cells moves per octave of one axis: each of the other two, halfway, adds a factor of
+/// sqrt 2 to [`COPULA_SLOPE`]. The axes add up.
+const COPULA_SLOPE_OF_AN_AXIS: f64 = 2.0 * COPULA_SLOPE;
+
+/// What rounding may add to the change between two views, in `f32` and `f64`: 16 roundings of a number below 1, and
+/// for the `f64` copula those of its quantiles.
+const POP_ROUNDING: [f64; 2] = [1.0 / 1_048_576.0, 1.0 / 17_592_186_044_416.0];
 
 /// The logarithm to base two of the cells per object unit along each axis.
 pub(crate) fn log_scale(nominal: &Nominal) -> [f64; 3] {

@@ -8,7 +8,7 @@ use super::ALL;
 use super::defect::Specimen;
 use super::matrix::{KillMatrix, Row};
 use crate::check::claim::Claim;
-use crate::check::{Budget, Draw, claims, run_claims};
+use crate::check::{Budget, Draw, Standing, claims, run_claims};
 use rayon::prelude::*;
 
 /// The draw by which the committed matrix is computed.
@@ -35,5 +35,5 @@ pub fn computed(known: &KillMatrix) -> KillMatrix {
 #[must_use]
 pub fn rejects(claim: &Claim, specimen: &Specimen) -> bool {
     let outcomes = run_claims(core::slice::from_ref(claim), &[(specimen.subject)()], &DRAW, || {});
-    outcomes.iter().any(|outcome| outcome.is_answered() && !outcome.as_expected())
+    outcomes.iter().any(|outcome| outcome.standing() == Standing::Against)
 }
