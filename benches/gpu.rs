@@ -6,10 +6,11 @@
 #![expect(clippy::print_stdout, reason = "says why nothing was measured")]
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use hashed_alpha::shader::assemble::{ShaderOptions, assemble};
+use hashed_alpha::shader::assemble::assemble;
 use hashed_alpha::shader::gpu::adapter::{Adapter, CHOICE_VARIABLE, adapters};
 use hashed_alpha::shader::gpu::{Choice, Device, Error, Kernel, Program};
 use hashed_alpha::threshold::hash::HashKind;
+use hashed_alpha::threshold::pipeline::Pipeline;
 use hashed_alpha::threshold::two_scale::Variant;
 use std::time::{Duration, Instant};
 
@@ -26,14 +27,14 @@ fn threshold(position: vec3<f32>, dpdx: vec3<f32>, dpdy: vec3<f32>) -> f32 {
 ";
 
 fn subjects() -> [(&'static str, String); 5] {
-    let integer = ShaderOptions { hash: HashKind::Mm4, ..ShaderOptions::listing(Variant::Isotropic) };
-    let text = |options| assemble(&options).expect("a hash scale of 1 can be written");
+    let integer = Pipeline::listing(Variant::Isotropic).with_hash(HashKind::Mm4);
+    let text = |pipeline: Pipeline| assemble(pipeline).expect("a hash scale of 1 can be written");
     [
         ("inputs alone", INPUTS_ALONE.to_owned()),
-        ("listing 1, sine", text(ShaderOptions::listing(Variant::Isotropic))),
+        ("listing 1, sine", text(Pipeline::listing(Variant::Isotropic))),
         ("listing 1, mm4", text(integer)),
-        ("robust isotropic", text(ShaderOptions::robust(Variant::Isotropic))),
-        ("robust anisotropic", text(ShaderOptions::robust(Variant::Anisotropic))),
+        ("robust isotropic", text(Pipeline::robust(Variant::Isotropic))),
+        ("robust anisotropic", text(Pipeline::robust(Variant::Anisotropic))),
     ]
 }
 

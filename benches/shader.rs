@@ -5,10 +5,10 @@
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use hashed_alpha::scene::{Fragment, Scene};
-use hashed_alpha::shader::assemble::ShaderOptions;
 use hashed_alpha::shader::interpreter::{Column, DeviceModel, Program};
 use hashed_alpha::shader::own::assembled;
 use hashed_alpha::threshold::footprint::Footprint;
+use hashed_alpha::threshold::pipeline::Pipeline;
 use hashed_alpha::threshold::two_scale::Variant;
 use std::hint::black_box;
 
@@ -66,7 +66,7 @@ fn all(criterion: &mut Criterion) {
     }
     // With what a trial adds: words out of fragments and back.
     let fragments: Vec<Fragment> = oblique().map(Fragment::from).collect();
-    let shader = assembled("listing", &ShaderOptions::listing(Variant::Isotropic)).expect("it is read");
+    let shader = assembled("listing", Pipeline::listing(Variant::Isotropic)).expect("it is read");
     let program = shader.program().expect("it is interpreted");
     group.bench_function("fragments", |b| {
         b.iter(|| shader.thresholds(&program, black_box(&fragments), &DeviceModel::ACCURATE));

@@ -4,10 +4,8 @@
 //! what both thresholds are told.
 #![allow(clippy::print_stdout)]
 
-use glam::Vec3;
-use hashed_alpha::check::{self, Budget, Subject, Suite};
-use hashed_alpha::threshold::footprint::Footprint;
-use hashed_alpha::threshold::two_scale::Variant;
+use hashed_alpha::glam::Vec3;
+use hashed_alpha::{Budget, Footprint, Subject, Suite, Variant, check};
 
 /// An integer hash of a cell and its octave: three rounds of multiply and shift over each word.
 fn hash(cell: Vec3, octave: i32) -> f32 {

@@ -13,13 +13,14 @@ use glam::{DVec3, Vec3, dvec2};
 use hashed_alpha::check::parity::Law;
 use hashed_alpha::cost::{Effort, devices};
 use hashed_alpha::scene::{Camera, Fragment, Rectangle, Scene};
-use hashed_alpha::shader::assemble::{ShaderOptions, assemble};
+use hashed_alpha::shader::assemble::assemble;
 use hashed_alpha::shader::gpu::adapter::{Adapter, adapters};
 use hashed_alpha::shader::gpu::parity::{Class, Report, Stage, expected_difference, stages};
 use hashed_alpha::shader::gpu::picture::{self, Pixel};
 use hashed_alpha::shader::gpu::program::drawn_word;
 use hashed_alpha::shader::gpu::{Choice, Device, Error, Evaluator, Kernel};
 use hashed_alpha::shader::own;
+use hashed_alpha::threshold::pipeline::Pipeline;
 use hashed_alpha::threshold::robust::Robust;
 use hashed_alpha::threshold::two_scale::Variant;
 use libtest_mimic::{Arguments, Failed, Trial};
@@ -267,8 +268,8 @@ fn assembled_thresholds_follow(device: &Device) -> Result<(), Failed> {
             scene.with_resolution([96, 72]).footprints().map(Fragment::from).collect::<Vec<_>>()
         })
         .collect();
-    let options = ShaderOptions::robust(Variant::Isotropic);
-    let shader = Evaluator::new(device, &own::assembled("robust", &options)?)?;
+    let options = Pipeline::robust(Variant::Isotropic);
+    let shader = Evaluator::new(device, &own::assembled("robust", options)?)?;
     let robust = Robust::new(Variant::Isotropic);
     for (fragment, threshold) in fragments.iter().zip(shader.thresholds(&fragments)?) {
         let expected: f32 = robust.threshold(&fragment.footprint.cast())?;
@@ -364,8 +365,8 @@ fn pictures_have_derivatives(device: &Device) -> Result<(), Failed> {
     /// No specification says how exactly a rasteriser interpolates. A thousandth moves the lerp factor by 0.0015 and a
     /// threshold by 0.003.
     const LARGEST_ERROR: f64 = 0.001;
-    let options = ShaderOptions::robust(Variant::Isotropic);
-    let source = assemble(&options)?;
+    let options = Pipeline::robust(Variant::Isotropic);
+    let source = assemble(options)?;
     let robust = Robust::new(Variant::Isotropic);
     let follows = |pixel: &Pixel| {
         robust.threshold(&pixel.footprint).is_ok_and(|threshold| (pixel.threshold - threshold).abs() < 4.1e-6)

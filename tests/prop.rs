@@ -8,7 +8,7 @@ use hashed_alpha::threshold::footprint::Footprint;
 use hashed_alpha::threshold::hash::{HashKind, open_lattice, sine};
 use hashed_alpha::threshold::hashed::{HashedAlpha, SMALLEST_THRESHOLD};
 use hashed_alpha::threshold::robust::{Join, Repairs, Robust, scales};
-use hashed_alpha::threshold::stage::blend_towards::blend_towards;
+use hashed_alpha::threshold::stage::fade_in::fade_in;
 use hashed_alpha::threshold::stage::order::Order;
 use hashed_alpha::threshold::stage::{mask, screen_door};
 use hashed_alpha::threshold::two_scale::Variant;
@@ -161,7 +161,7 @@ proptest! {
         let n = NonZeroU32::new(n).expect("from 1 on");
         let chi = |word: u32| {
             let hashed = if word.is_multiple_of(7) { 1.0 } else { open_lattice(word) };
-            blend_towards(authored, Order::ALL[order].threshold(hashed, frame, n), b)
+            fade_in(authored, Order::ALL[order].threshold(hashed, frame, n), b)
         };
         let xi = [words[1], words[2]].map(open_lattice::<f64>);
         let all = (1_u64 << n.get()) - 1;

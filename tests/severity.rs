@@ -144,8 +144,8 @@ fn row_08_exact_zeros() {
     assert_eq!(jittered_literal(0.0_f32, 0, n), 0.0);
     assert!(jittered(0.0_f32, 0, n) > 0.0);
     let tiny = f32::from_bits(0x3280_0000); // 2^-26
-    assert_eq!(fade_in_literal(tiny, 1.0), 0.0);
-    assert!(fade_in(tiny, 1.0) > 0.0);
+    assert_eq!(fade_in_literal(0.5, tiny, 1.0), 0.0);
+    assert!(fade_in(0.5, tiny, 1.0) > 0.0);
 }
 
 #[test]

@@ -3,18 +3,22 @@
 //! Without `glslangValidator` and `spirv-val` the trials that need them are ignored and say so; with
 //! `HASHED_ALPHA_REQUIRE=compilers` that is a failure.
 
-use hashed_alpha::shader::assemble::{Coverage, FadeIn, ScreenDoor, ShaderOptions, Source, Strata, Stratify};
-use hashed_alpha::shader::export::{Language, export};
+use hashed_alpha::shader::assemble::{HashScale, ShaderOptions};
+use hashed_alpha::shader::export::{Exported, Language, export};
 use hashed_alpha::shader::own;
 use hashed_alpha::threshold::cdf::CdfForm;
 use hashed_alpha::threshold::hash::HashKind;
-use hashed_alpha::threshold::robust::Join;
+use hashed_alpha::threshold::hashed::HashedAlpha;
+use hashed_alpha::threshold::pipeline::{
+    FadeIn, FrameStrata, Pipeline, SamplePattern, SampleStrata, ScreenDoor, Source,
+};
+use hashed_alpha::threshold::robust::{Join, Robust};
 use hashed_alpha::threshold::stage::order::Order;
 use hashed_alpha::threshold::stage::stipple::Density;
 use hashed_alpha::threshold::two_scale::Variant;
 use libtest_mimic::{Arguments, Failed, Trial};
 use std::collections::BTreeMap;
-use std::num::NonZeroU16;
+use std::num::NonZeroU32;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::{env, fs};
@@ -63,38 +67,59 @@ fn with(
 
 /// Every source and every effect, each hash and each way of giving the scale at least once.
 fn options() -> Vec<ShaderOptions> {
-    let size = |n| NonZeroU16::new(n).unwrap();
+    let size = |n| NonZeroU32::new(n).unwrap();
     let mut all = Vec::new();
-    for source in CdfForm::ALL.map(Source::Listing).into_iter().chain(Join::ALL.map(Source::Robust)) {
-        for variant in Variant::ALL {
-            all.push(ShaderOptions { source, hash_scale: None, ..ShaderOptions::robust(variant) });
-        }
+    for variant in Variant::ALL {
+        let listings = CdfForm::ALL.map(|form| {
+            let listing = HashedAlpha { variant, form, ..HashedAlpha::default().with_hash(HashKind::Mm4) };
+            Pipeline::from(listing)
+        });
+        let joins = Join::ALL.map(|join| Pipeline::from(Robust { join, ..Robust::new(variant) }));
+        all.extend(
+            listings
+                .into_iter()
+                .chain(joins)
+                .map(|pipeline| ShaderOptions { pipeline, hash_scale: HashScale::Parameter }),
+        );
     }
+    let mut written = Vec::new();
     for hash in HashKind::ALL {
-        all.push(ShaderOptions { hash, ..ShaderOptions::listing(Variant::Isotropic) });
-        all.push(ShaderOptions { hash, ..ShaderOptions::robust(Variant::Isotropic) });
+        written.push(Pipeline::listing(Variant::Isotropic).with_hash(hash));
+        written.push(Pipeline::robust(Variant::Isotropic).with_hash(hash));
     }
-    let effects = |source| ShaderOptions {
-        source,
-        stratify: Some(Stratify { frames: size(8), order: Order::Alternating }),
-        coverage: Some(Coverage { samples: size(6), strata: Strata::Decorrelated }),
-        fade_in: Some(FadeIn { full_noise_lod: 6.0, anisotropy: true }),
-        ..ShaderOptions::robust(Variant::Anisotropic)
-    };
-    all.extend(
+    written.extend(
         [
             Source::Stochastic,
-            Source::Fixed,
-            Source::Regular(size(4)),
-            Source::PixelMask(size(4)),
+            Source::Fixed(0.5),
             Source::ScreenDoor(ScreenDoor::RandomMask(5)),
-            Source::Stipple(Density::High),
+            Source::Stipple { density: Density::High, kept: 0.5 },
         ]
-        .map(|source| ShaderOptions { source, ..ShaderOptions::listing(Variant::Isotropic) }),
+        .map(Pipeline::from),
     );
-    all.push(effects(Source::Robust(Join::Copula)));
-    all.push(effects(Source::Listing(CdfForm::Literal)));
+    let sampled = |n, pattern| Some(SampleStrata { samples: size(n), pattern });
+    for pattern in [SamplePattern::Regular, SamplePattern::ByPixel] {
+        written.push(Pipeline { sample_strata: sampled(4, pattern), ..Pipeline::default() });
+    }
+    for form in CdfForm::ALL {
+        for source in [Pipeline::robust(Variant::Anisotropic), Pipeline::listing(Variant::Anisotropic)] {
+            written.push(Pipeline {
+                frame_strata: Some(FrameStrata { frames: size(8), order: Order::Alternating }),
+                sample_strata: sampled(6, SamplePattern::Decorrelated),
+                fade_in: Some(FadeIn { anisotropy: true, ..FadeIn::default() }),
+                form,
+                ..source
+            });
+        }
+    }
+    all.extend(written.into_iter().map(ShaderOptions::from));
     all
+}
+
+fn text(options: &ShaderOptions, language: Language) -> Result<String, Failed> {
+    match export(*options, language)? {
+        Exported::Text(text) => Ok(text),
+        Exported::Words(_) => Err(format!("{language} is no text").into()),
+    }
 }
 
 /// The parameters that no fragment has get a value.
@@ -117,7 +142,7 @@ fn read_back() -> Result<(), Failed> {
             (Language::GlslEs, own::Language::Glsl),
             (Language::SpirV, own::Language::SpirV),
         ] {
-            let bytes = export(&options, language)?;
+            let bytes = export(options, language)?.into_bytes();
             let shader = own::parse(language.name(), read, &bytes, &own_options(&options))
                 .map_err(|error| format!("{options:?}\n{error}\n{}", String::from_utf8_lossy(&bytes)))?;
             let names: Vec<_> = shader.bindings.iter().map(|binding| binding.name.as_str()).collect();
@@ -130,7 +155,7 @@ fn read_back() -> Result<(), Failed> {
 
 /// A whole fragment shader around an exported chunk.
 fn caller(options: &ShaderOptions, language: Language) -> Result<String, Failed> {
-    let chunk = String::from_utf8(export(options, language)?)?;
+    let chunk = text(options, language)?;
     let arguments: Vec<_> = options
         .parameters()
         .iter()
@@ -178,7 +203,7 @@ fn compiled_by_glslang(tool: &Path, language: Language) -> Result<(), Failed> {
 }
 
 fn glslang_refuses(tool: &Path) -> Result<(), Failed> {
-    let options = ShaderOptions::robust(Variant::Isotropic);
+    let options = ShaderOptions::default();
     for language in [Language::Glsl, Language::GlslEs, Language::Hlsl] {
         let text = caller(&options, language)?.replace("float threshold(", "float other(");
         if glslang(tool, language, &text)?.0 {
@@ -198,7 +223,7 @@ fn spirv_val(tool: &Path, bytes: &[u8]) -> Result<(bool, String), Failed> {
 
 fn accepted_by_spirv_val(tool: &Path) -> Result<(), Failed> {
     for options in options() {
-        let (accepted, message) = spirv_val(tool, &export(&options, Language::SpirV)?)?;
+        let (accepted, message) = spirv_val(tool, &export(options, Language::SpirV)?.into_bytes())?;
         if !accepted {
             return Err(format!("{options:?}\n{message}").into());
         }
@@ -207,7 +232,7 @@ fn accepted_by_spirv_val(tool: &Path) -> Result<(), Failed> {
 }
 
 fn spirv_val_refuses(tool: &Path) -> Result<(), Failed> {
-    let mut bytes = export(&ShaderOptions::robust(Variant::Isotropic), Language::SpirV)?;
+    let mut bytes = export(Pipeline::default(), Language::SpirV)?.into_bytes();
     bytes.truncate(bytes.len() / 8 * 4);
     if spirv_val(tool, &bytes)?.0 {
         return Err("half a module was accepted".into());

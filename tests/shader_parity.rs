@@ -1,11 +1,9 @@
 //! The assembled WGSL against its Rust twins, on the interpreter: which are the same bits, and how far the others are
 //! apart.
 
-use core::num::{NonZeroU16, NonZeroU32};
+use core::num::NonZeroU32;
 use hashed_alpha::scene::fragment::Fragment;
-use hashed_alpha::shader::assemble::{
-    Coverage, FadeIn, ScreenDoor, ShaderOptions, Source, Strata, Stratify, assemble,
-};
+use hashed_alpha::shader::assemble::{ShaderOptions, assemble};
 use hashed_alpha::shader::beside;
 use hashed_alpha::shader::export::{self, export};
 use hashed_alpha::shader::interpreter::DeviceModel;
@@ -15,12 +13,14 @@ use hashed_alpha::technique::foveated::Gaze;
 use hashed_alpha::technique::occlusion::cosine_direction;
 use hashed_alpha::threshold::cdf::CdfForm;
 use hashed_alpha::threshold::footprint::Footprint;
-use hashed_alpha::threshold::hash::integer::pcg4d;
-use hashed_alpha::threshold::hash::{HashKind, open_lattice};
+use hashed_alpha::threshold::hash::HashKind;
 use hashed_alpha::threshold::hashed::HashedAlpha;
-use hashed_alpha::threshold::robust::{Join, Repairs, Robust};
-use hashed_alpha::threshold::stage::stipple::{self, Density};
-use hashed_alpha::threshold::stage::{coverage, fade_in, mask, order::Order, screen_door, stratify};
+use hashed_alpha::threshold::pipeline::{
+    FadeIn, FrameStrata, Inputs, Pipeline, SamplePattern, SampleStrata, ScreenDoor, Source,
+};
+use hashed_alpha::threshold::robust::{Join, Robust};
+use hashed_alpha::threshold::stage::order::Order;
+use hashed_alpha::threshold::stage::stipple::Density;
 use hashed_alpha::threshold::two_scale::Variant;
 use rand::{RngExt, SeedableRng, rngs::Xoshiro256PlusPlus};
 
@@ -49,7 +49,7 @@ fn fragments(count: usize) -> Vec<Fragment> {
         .collect()
 }
 
-fn read(options: &ShaderOptions, settings: &[(&str, &str)]) -> OwnShader {
+fn read(options: impl Into<ShaderOptions>, settings: &[(&str, &str)]) -> OwnShader {
     let text = assemble(options).unwrap();
     let settings = settings.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
     let own_options = own::Options { settings, ..own::Options::default() };
@@ -136,18 +136,12 @@ fn listings_are_the_same_bits() {
     for form in CdfForm::ALL {
         for variant in Variant::ALL {
             for hash in HashKind::ALL {
-                for hash_scale in [1.0, 0.3] {
-                    let options = ShaderOptions {
-                        hash,
-                        source: Source::Listing(form),
-                        hash_scale: Some(hash_scale),
-                        ..ShaderOptions::listing(variant)
-                    };
-                    let found = run(&read(&options, &[]), &fragments);
-                    let twin = HashedAlpha { variant, hash, hash_scale: f64::from(hash_scale), form };
+                for hash_scale in [1.0, f64::from(0.3_f32)] {
+                    let twin = HashedAlpha { variant, hash, hash_scale, form };
+                    let found = run(&read(Pipeline::from(twin), &[]), &fragments);
                     for (fragment, found) in fragments.iter().zip(found) {
                         let wanted: f32 = twin.threshold(&fragment.footprint.cast());
-                        assert!(same(found, wanted), "{options:?}\n{fragment:?}\n{found} {wanted}");
+                        assert!(same(found, wanted), "{twin:?}\n{fragment:?}\n{found} {wanted}");
                     }
                 }
             }
@@ -155,15 +149,7 @@ fn listings_are_the_same_bits() {
     }
 }
 
-fn robust_twin(options: &ShaderOptions, fragments: &[Fragment]) -> Vec<f32> {
-    let Source::Robust(join) = options.source else { panic!("{options:?}") };
-    let twin = Robust {
-        variant: options.variant,
-        hash: options.hash,
-        hash_scale: options.hash_scale.map_or(1.0, f64::from),
-        join,
-        repairs: Repairs::ALL,
-    };
+fn robust_twin(twin: Robust, fragments: &[Fragment]) -> Vec<f32> {
     fragments.iter().map(|fragment| twin.threshold(&fragment.footprint.cast()).unwrap_or(0.5)).collect()
 }
 
@@ -184,10 +170,9 @@ fn robust_thresholds_are_those_of_rust() {
     for join in Join::ALL {
         for variant in [Variant::Isotropic, Variant::Anisotropic] {
             for hash in HashKind::ALL {
-                let options =
-                    ShaderOptions { hash, source: Source::Robust(join), ..ShaderOptions::robust(variant) };
-                let found = run(&read(&options, &[]), &fragments);
-                let (share, largest) = difference(&found, &robust_twin(&options, &fragments));
+                let robust = Robust { hash, join, ..Robust::new(variant) };
+                let found = run(&read(Pipeline::from(robust), &[]), &fragments);
+                let (share, largest) = difference(&found, &robust_twin(robust, &fragments));
                 assert!(largest <= bound(join), "{join} {variant} {hash}: {share} differ, by {largest:e}");
             }
         }
@@ -199,113 +184,64 @@ fn degenerate_footprints_have_the_robust_threshold_of_rust() {
     let fragments = degenerate();
     for join in Join::ALL {
         for variant in [Variant::Isotropic, Variant::Anisotropic] {
-            let options = ShaderOptions { source: Source::Robust(join), ..ShaderOptions::robust(variant) };
-            let found = run(&read(&options, &[]), &fragments);
+            let robust = Robust { join, ..Robust::new(variant) };
+            let found = run(&read(Pipeline::from(robust), &[]), &fragments);
             assert!(found.iter().all(|&threshold| threshold > 0.0 && threshold <= 1.0));
-            let (share, largest) = difference(&found, &robust_twin(&options, &fragments));
+            let (share, largest) = difference(&found, &robust_twin(robust, &fragments));
             assert!(largest <= bound(join), "{join} {variant}: {share} differ, by {largest:e}");
         }
     }
 }
 
-/// The effects in Rust on what the source gave.
-fn effects_twin(
-    options: &ShaderOptions,
-    fragment: &Fragment,
-    sample: u32,
-    texel: [f32; 2],
-    value: f32,
-) -> f32 {
-    let literal = options.source == Source::Listing(CdfForm::Literal);
-    let mut value = value;
-    if let Some(Stratify { frames, order }) = options.stratify {
-        let n = NonZeroU32::from(frames);
-        let frame = fragment.frame % n;
-        value = match order {
-            Order::Ascending if literal => stratify::stratified_literal(value, frame, n),
-            Order::AlternatingLiteral if literal => {
-                stratify::stratified_literal(value, stratify::alternating_literal(frame, n), n)
-            }
-            _ => order.threshold(value, frame, n),
-        };
+/// What a pipeline reads of a fragment.
+fn inputs(fragment: &Fragment, texel: [f32; 2]) -> Inputs<f32> {
+    Inputs {
+        pixel: fragment.pixel.to_array().map(|c| c as u32),
+        frame: fragment.frame,
+        layer: fragment.layer,
+        lod: fragment.lod as f32,
+        texel,
+        ..fragment.footprint.cast().into()
     }
-    if let Some(Coverage { samples, strata }) = options.coverage {
-        let n = NonZeroU32::from(samples);
-        let [x, y] = fragment.pixel.to_array().map(|c| c as u32);
-        let frame = options.stratify.map_or(0, |stratify| fragment.frame % NonZeroU32::from(stratify.frames));
-        let words = pcg4d([x, y, frame, fragment.layer]);
-        let xi = [open_lattice::<f32>(words[1]), open_lattice(words[2])];
-        let stratum = match (strata, literal) {
-            (Strata::InOrder, _) => sample,
-            (Strata::Decorrelated, true) => coverage::decorrelated_literal(xi, sample, n),
-            (Strata::Decorrelated, false) => coverage::decorrelated(xi, sample, n),
-            (Strata::Shuffled, _) => mask::shuffled(words[3], sample, n),
-        };
-        value = if literal {
-            coverage::jittered_literal(value, stratum, n)
-        } else {
-            coverage::jittered(value, stratum, n)
-        };
+}
+
+/// Text and Rust give the same bits of a sample of every fragment.
+fn expect_same(pipeline: Pipeline, fragments: &[Fragment], sample: u32, texel: [f32; 2]) {
+    let written = [sample.to_string(), format!("{:?}", texel[0]), format!("{:?}", texel[1])];
+    let mut settings = Vec::new();
+    for (key, value) in ["sample_index", "texel_dx", "texel_dy"].into_iter().zip(&written) {
+        if ShaderOptions::from(pipeline).parameters().iter().any(|parameter| parameter.name == key) {
+            settings.push((key, value.as_str()));
+        }
     }
-    if let Some(FadeIn { full_noise_lod, anisotropy }) = options.fade_in {
-        let ratio = match (anisotropy, literal) {
-            (false, _) => 1.0,
-            (true, true) => fade_in::anisotropy_literal(texel),
-            (true, false) => fade_in::anisotropy(texel),
-        };
-        let lod = fragment.lod as f32 * ratio;
-        value = if literal {
-            fade_in::fade_in_literal(value, fade_in::blend_literal(lod, full_noise_lod))
-        } else {
-            fade_in::fade_in(value, fade_in::blend(lod, full_noise_lod))
-        };
+    for (fragment, found) in fragments.iter().zip(run(&read(pipeline, &settings), fragments)) {
+        let wanted = pipeline.threshold(&inputs(fragment, texel), sample, &mut || panic!("a random number"));
+        assert!(same(found, wanted), "{pipeline:?} {texel:?}\n{fragment:?}\n{found} {wanted}");
     }
-    value
 }
 
 #[test]
-fn effects_are_the_same_bits() {
+fn stages_are_the_same_bits() {
     let fragments = fragments(1000);
-    let size = |n| NonZeroU16::new(n).unwrap();
-    for source in [Source::Listing(CdfForm::Literal), Source::Listing(CdfForm::Stable)] {
-        let plain =
-            ShaderOptions { source, hash: HashKind::Mm4, ..ShaderOptions::listing(Variant::Isotropic) };
-        let base = run(&read(&plain, &[]), &fragments);
-        let orders = if source == Source::Listing(CdfForm::Literal) {
-            &[Order::Ascending, Order::AlternatingLiteral][..]
-        } else {
-            &Order::ALL
-        };
+    let size = |n| NonZeroU32::new(n).unwrap();
+    for form in CdfForm::ALL {
+        let plain = Pipeline { form, ..Pipeline::listing(Variant::Isotropic).with_hash(HashKind::Mm4) };
         for frames in [1, 2, 7, 8] {
-            for order in orders.iter().copied() {
-                for (strata, anisotropy) in [
-                    (Strata::InOrder, true),
-                    (Strata::Decorrelated, false),
-                    (Strata::Decorrelated, true),
-                    (Strata::Shuffled, false),
+            for order in Order::ALL {
+                for (pattern, anisotropy) in [
+                    (SamplePattern::Jittered, true),
+                    (SamplePattern::Decorrelated, false),
+                    (SamplePattern::Decorrelated, true),
+                    (SamplePattern::Shuffled, false),
                 ] {
                     for texel in [[1.0, 1.0], [0.0, 1.0], [0.0, 0.0], [3.0, 0.5], [0.25, 9.0]] {
-                        let options = ShaderOptions {
-                            stratify: Some(Stratify { frames: size(frames), order }),
-                            coverage: Some(Coverage { samples: size(frames + 1), strata }),
-                            fade_in: Some(FadeIn { full_noise_lod: 6.0, anisotropy }),
+                        let pipeline = Pipeline {
+                            frame_strata: Some(FrameStrata { frames: size(frames), order }),
+                            sample_strata: Some(SampleStrata { samples: size(frames + 1), pattern }),
+                            fade_in: Some(FadeIn { anisotropy, ..FadeIn::default() }),
                             ..plain
                         };
-                        let sample = u32::from(frames) / 2;
-                        let written =
-                            [sample.to_string(), format!("{:?}", texel[0]), format!("{:?}", texel[1])];
-                        let mut settings = vec![("sample_index", written[0].as_str())];
-                        if anisotropy {
-                            settings.extend([("texel_dx", &*written[1]), ("texel_dy", &*written[2])]);
-                        }
-                        let found = run(&read(&options, &settings), &fragments);
-                        for ((fragment, &base), found) in fragments.iter().zip(&base).zip(found) {
-                            let wanted = effects_twin(&options, fragment, sample, texel, base);
-                            assert!(
-                                same(found, wanted),
-                                "{options:?} {texel:?}\n{fragment:?}\n{found} {wanted}"
-                            );
-                        }
+                        expect_same(pipeline, &fragments, frames / 2, texel);
                     }
                 }
             }
@@ -317,59 +253,33 @@ fn effects_are_the_same_bits() {
 #[test]
 fn strata_without_frames_are_the_same_bits() {
     let fragments = fragments(1000);
-    let plain = ShaderOptions { hash: HashKind::Mm4, ..ShaderOptions::listing(Variant::Isotropic) };
-    let base = run(&read(&plain, &[]), &fragments);
-    for strata in [Strata::Decorrelated, Strata::Shuffled] {
-        let coverage = Some(Coverage { samples: NonZeroU16::new(8).unwrap(), strata });
-        let options = ShaderOptions { coverage, ..plain };
-        assert!(!options.parameters().iter().any(|parameter| parameter.name == "frame"));
-        let found = run(&read(&options, &[("sample_index", "5")]), &fragments);
-        for ((fragment, &base), found) in fragments.iter().zip(&base).zip(found) {
-            let wanted = effects_twin(&options, fragment, 5, [1.0; 2], base);
-            assert!(same(found, wanted), "{options:?}\n{fragment:?}\n{found} {wanted}");
-        }
+    for pattern in [SamplePattern::Decorrelated, SamplePattern::Shuffled] {
+        let strata = SampleStrata { samples: NonZeroU32::new(8).unwrap(), pattern };
+        let plain = Pipeline::listing(Variant::Isotropic).with_hash(HashKind::Mm4);
+        let pipeline = Pipeline { sample_strata: Some(strata), ..plain };
+        let parameters = ShaderOptions::from(pipeline).parameters();
+        assert!(!parameters.iter().any(|parameter| parameter.name == "frame"));
+        expect_same(pipeline, &fragments, 5, [1.0; 2]);
     }
 }
 
 #[test]
-fn screen_doors_and_stipple_are_the_same_bits() {
+fn sources_of_the_pixel_are_the_same_bits() {
     let mut fragments = fragments(1000);
     for (index, fragment) in (0..).zip(&mut fragments) {
         fragment.pixel = glam::dvec2(f64::from(index % 37) + 0.5, f64::from(index / 37) + 0.5);
     }
-    let sources =
+    let doors =
         [ScreenDoor::Fixed, ScreenDoor::RandomMask(5), ScreenDoor::Randomised].map(Source::ScreenDoor);
-    for source in sources.into_iter().chain([Density::High, Density::Low].map(Source::Stipple)) {
-        let options = ShaderOptions { source, ..ShaderOptions::listing(Variant::Isotropic) };
-        for (fragment, found) in fragments.iter().zip(run(&read(&options, &[]), &fragments)) {
-            let pixel = fragment.pixel.to_array().map(|c| c as u32);
-            let wanted = match source {
-                Source::ScreenDoor(ScreenDoor::RandomMask(seed)) => screen_door::random_mask(pixel, seed),
-                Source::ScreenDoor(ScreenDoor::Randomised) => screen_door::randomised(pixel, fragment.layer),
-                Source::Stipple(density) => stipple::threshold(density, pixel, 0.5),
-                _ => screen_door::fixed(pixel),
-            };
-            assert!(same(found, wanted), "{source:?} {fragment:?}: {found} {wanted}");
-        }
+    let stipples = Density::ALL.map(|density| Source::Stipple { density, kept: 0.5 });
+    for source in doors.into_iter().chain(stipples) {
+        expect_same(source.into(), &fragments, 0, [1.0; 2]);
     }
-}
-
-#[test]
-fn pixel_masks_are_the_same_bits() {
-    let fragments = fragments(1000);
-    for samples in [1, 3, 8] {
-        let samples = NonZeroU16::new(samples).unwrap();
-        let options = ShaderOptions {
-            source: Source::PixelMask(samples),
-            ..ShaderOptions::listing(Variant::Isotropic)
-        };
-        let sample = u32::from(samples.get()) / 2;
-        let written = sample.to_string();
-        let found = run(&read(&options, &[("sample_index", &written)]), &fragments);
-        for (fragment, found) in fragments.iter().zip(found) {
-            let pixel = fragment.pixel.to_array().map(|c| c as u32);
-            let wanted = mask::turned(mask::pixel_value(pixel), sample, samples.into());
-            assert!(same(found, wanted), "{samples} {fragment:?}: {found} {wanted}");
+    for pattern in [SamplePattern::Regular, SamplePattern::ByPixel] {
+        for samples in [1, 3, 8] {
+            let strata = SampleStrata { samples: NonZeroU32::new(samples).unwrap(), pattern };
+            let pipeline = Pipeline { sample_strata: Some(strata), ..Pipeline::default() };
+            expect_same(pipeline, &fragments, samples / 2, [1.0; 2]);
         }
     }
 }
@@ -377,22 +287,22 @@ fn pixel_masks_are_the_same_bits() {
 #[test]
 fn a_text_with_another_constant_is_seen() {
     let fragments = fragments(1000);
-    let options = ShaderOptions { hash: HashKind::Mm4, ..ShaderOptions::listing(Variant::Isotropic) };
-    let text = assemble(&options).unwrap().replace("0x85ebca6bu", "0x85ebca6du");
+    let pipeline = Pipeline::listing(Variant::Isotropic).with_hash(HashKind::Mm4);
+    let text = assemble(pipeline).unwrap().replace("0x85ebca6bu", "0x85ebca6du");
     let shader =
         own::parse("broken", own::Language::Wgsl, text.as_bytes(), &own::Options::default()).unwrap();
-    let (share, _) = difference(&run(&shader, &fragments), &run(&read(&options, &[]), &fragments));
+    let (share, _) = difference(&run(&shader, &fragments), &run(&read(pipeline, &[]), &fragments));
     assert!(share > 0.9, "{share}");
 }
 
 #[test]
 fn a_coefficient_that_is_off_by_a_ten_thousandth_is_seen() {
     let fragments = fragments(1000);
-    let options = ShaderOptions::robust(Variant::Anisotropic);
-    let text = assemble(&options).unwrap().replace("0.11113527", "0.11123527");
+    let robust = Robust::new(Variant::Anisotropic);
+    let text = assemble(Pipeline::from(robust)).unwrap().replace("0.11113527", "0.11123527");
     let shader =
         own::parse("broken", own::Language::Wgsl, text.as_bytes(), &own::Options::default()).unwrap();
-    let (_, largest) = difference(&run(&shader, &fragments), &robust_twin(&options, &fragments));
+    let (_, largest) = difference(&run(&shader, &fragments), &robust_twin(robust, &fragments));
     assert!(largest > bound(Join::Copula), "{largest:e}");
 }
 
@@ -402,20 +312,19 @@ fn exports_read_back_are_the_same_bits() {
     let mut fragments = fragments(1000);
     fragments.extend(degenerate());
     for variant in [Variant::Isotropic, Variant::Anisotropic] {
-        let joins = Join::ALL
-            .map(|join| ShaderOptions { source: Source::Robust(join), ..ShaderOptions::robust(variant) });
-        for options in joins.into_iter().chain([ShaderOptions::listing(variant)]) {
-            let wanted = run(&read(&options, &[]), &fragments);
+        let joins = Join::ALL.map(|join| Pipeline::from(Robust { join, ..Robust::new(variant) }));
+        for pipeline in joins.into_iter().chain([Pipeline::listing(variant)]) {
+            let wanted = run(&read(pipeline, &[]), &fragments);
             for (language, read_as) in [
                 (export::Language::Wgsl, own::Language::Wgsl),
                 (export::Language::Glsl, own::Language::Glsl),
                 (export::Language::GlslEs, own::Language::Glsl),
                 (export::Language::SpirV, own::Language::SpirV),
             ] {
-                let bytes = export(&options, language).unwrap();
+                let bytes = export(pipeline, language).unwrap().into_bytes();
                 let shader = own::parse(language.name(), read_as, &bytes, &own::Options::default()).unwrap();
                 let (share, largest) = difference(&run(&shader, &fragments), &wanted);
-                assert_eq!(share, 0.0, "{language} {options:?}: {largest}");
+                assert_eq!(share, 0.0, "{language} {pipeline:?}: {largest}");
             }
         }
     }

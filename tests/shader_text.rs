@@ -1,13 +1,16 @@
 //! The assembled WGSL: every combination is a sound module, holds nothing that was not asked for, and keeps its names
 //! in every language.
 
-use core::num::NonZeroU16;
-use hashed_alpha::shader::assemble::{
-    Coverage, FadeIn, InvalidOption, ScreenDoor, ShaderOptions, Source, Strata, Stratify, assemble,
-};
+use core::num::NonZeroU32;
+use hashed_alpha::shader::assemble::{AssembleError, HashScale, ShaderOptions, assemble};
 use hashed_alpha::threshold::cdf::CdfForm;
 use hashed_alpha::threshold::hash::HashKind;
-use hashed_alpha::threshold::robust::Join;
+use hashed_alpha::threshold::hashed::HashedAlpha;
+use hashed_alpha::threshold::pipeline::{
+    FadeIn, FrameStrata, Independence, IndependentBy, Pipeline, SamplePattern, SampleStrata, ScreenDoor,
+    Source,
+};
+use hashed_alpha::threshold::robust::{Join, Robust};
 use hashed_alpha::threshold::stage::order::Order;
 use hashed_alpha::threshold::stage::stipple::Density;
 use hashed_alpha::threshold::two_scale::Variant;
@@ -15,61 +18,68 @@ use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{Expression, Function, Module, TypeInner};
 use std::collections::BTreeSet;
 
-fn size(n: u16) -> NonZeroU16 {
-    NonZeroU16::new(n).unwrap()
+fn size(n: u32) -> NonZeroU32 {
+    NonZeroU32::new(n).unwrap()
 }
 
-fn sources() -> impl Iterator<Item = Source> {
-    CdfForm::ALL.map(Source::Listing).into_iter().chain(Join::ALL.map(Source::Robust)).chain([
-        Source::Stochastic,
-        Source::Fixed,
-        Source::Regular(size(4)),
-        Source::ScreenDoor(ScreenDoor::Fixed),
-        Source::ScreenDoor(ScreenDoor::RandomMask(5)),
-        Source::ScreenDoor(ScreenDoor::Randomised),
-        Source::PixelMask(size(4)),
-        Source::Stipple(Density::High),
-        Source::Stipple(Density::Low),
-    ])
+/// Every source that is hashed, with a noise of 0.7 pixels.
+fn hashed() -> impl Iterator<Item = Pipeline> {
+    Variant::ALL.into_iter().flat_map(|variant| {
+        let listings = CdfForm::ALL
+            .map(|form| HashedAlpha { variant, form, hash_scale: 0.7, ..HashedAlpha::default() }.into());
+        let joins = Join::ALL.map(|join| Robust { join, hash_scale: 0.7, ..Robust::new(variant) }.into());
+        listings.into_iter().chain(joins)
+    })
 }
 
-/// Every source, variant, hash and way of giving the hash scale, without effects.
+/// Every other source, patterns without a source among them.
+fn unhashed() -> impl Iterator<Item = Pipeline> {
+    [Source::Stochastic, Source::Fixed(0.5)]
+        .into_iter()
+        .chain([ScreenDoor::Fixed, ScreenDoor::RandomMask(5), ScreenDoor::Randomised].map(Source::ScreenDoor))
+        .chain(Density::ALL.map(|density| Source::Stipple { density, kept: 0.5 }))
+        .map(Pipeline::from)
+        .chain([SamplePattern::Regular, SamplePattern::ByPixel].map(|pattern| sampled(4, pattern)))
+}
+
+fn sampled(samples: u32, pattern: SamplePattern) -> Pipeline {
+    Pipeline { sample_strata: Some(SampleStrata { samples: size(samples), pattern }), ..Pipeline::default() }
+}
+
+/// Every source, variant, hash and way of giving the hash scale, without stages.
 fn plain() -> impl Iterator<Item = ShaderOptions> {
-    sources().flat_map(|source| {
-        Variant::ALL.into_iter().flat_map(move |variant| {
-            HashKind::ALL.into_iter().flat_map(move |hash| {
-                [None, Some(0.7)].map(|hash_scale| ShaderOptions {
-                    hash,
-                    hash_scale,
-                    source,
-                    ..ShaderOptions::listing(variant)
-                })
-            })
-        })
+    let every_hash = |pipeline: Pipeline| HashKind::ALL.into_iter().map(move |hash| pipeline.with_hash(hash));
+    hashed().flat_map(every_hash).chain(unhashed()).flat_map(|pipeline| {
+        [HashScale::Written, HashScale::Parameter].map(|hash_scale| ShaderOptions { pipeline, hash_scale })
     })
 }
 
-/// Every set of effects on every source.
-fn with_effects() -> impl Iterator<Item = ShaderOptions> {
-    let orders = Order::ALL.map(|order| Some(Stratify { frames: size(7), order }));
-    let stratify: Vec<_> = orders.into_iter().chain([None]).collect();
-    let coverage = [None, Some(Strata::InOrder), Some(Strata::Decorrelated), Some(Strata::Shuffled)]
-        .map(|choice| choice.map(|strata| Coverage { samples: size(6), strata }));
+/// Every set of stages in both forms on every source.
+fn with_stages() -> impl Iterator<Item = ShaderOptions> {
+    let orders = Order::ALL.map(|order| Some(FrameStrata { frames: size(7), order }));
+    let frame_strata: Vec<_> = orders.into_iter().chain([None]).collect();
+    let patterns = [SamplePattern::Jittered, SamplePattern::Decorrelated, SamplePattern::Shuffled];
+    let sample_strata: Vec<_> = patterns
+        .into_iter()
+        .map(|pattern| Some(SampleStrata { samples: size(6), pattern }))
+        .chain([None])
+        .collect();
     let fade_in = [None, Some(false), Some(true)]
-        .map(|choice| choice.map(|anisotropy| FadeIn { full_noise_lod: 6.0, anisotropy }));
-    sources().flat_map(move |source| {
-        stratify.clone().into_iter().flat_map(move |stratify| {
-            coverage.into_iter().flat_map(move |coverage| {
-                fade_in.into_iter().map(move |fade_in| ShaderOptions {
-                    source,
-                    stratify,
-                    coverage,
-                    fade_in,
-                    ..ShaderOptions::robust(Variant::Isotropic)
+        .map(|choice| choice.map(|anisotropy| FadeIn { anisotropy, ..FadeIn::default() }));
+    hashed()
+        .chain(unhashed())
+        .flat_map(|source| CdfForm::ALL.map(|form| Pipeline { form, ..source }))
+        .flat_map(move |source| {
+            let (frame_strata, sample_strata) = (frame_strata.clone(), sample_strata.clone());
+            frame_strata.into_iter().flat_map(move |frame_strata| {
+                sample_strata.clone().into_iter().flat_map(move |sample_strata| {
+                    fade_in.into_iter().map(move |fade_in| {
+                        let sample_strata = source.sample_strata.or(sample_strata);
+                        Pipeline { frame_strata, sample_strata, fade_in, ..source }.into()
+                    })
                 })
             })
         })
-    })
 }
 
 fn module_of(text: &str) -> Result<(Module, ModuleInfo), String> {
@@ -116,8 +126,8 @@ fn left_over(text: &str, module: &Module) -> Vec<String> {
 
 #[test]
 fn every_combination_is_a_sound_module_and_holds_nothing_unused() {
-    for options in plain().chain(with_effects()) {
-        let text = assemble(&options).unwrap();
+    for options in plain().chain(with_stages()) {
+        let text = assemble(options).unwrap();
         let (module, _) = module_of(&text).unwrap_or_else(|error| panic!("{options:?}\n{error}\n{text}"));
         assert_eq!(left_over(&text, &module), Vec::<String>::new(), "{options:?}\n{text}");
         let (_, threshold) = module
@@ -145,7 +155,7 @@ fn reads_every_argument(function: &Function) -> bool {
 
 #[test]
 fn a_function_that_nobody_calls_is_seen() {
-    let mut text = assemble(&ShaderOptions::robust(Variant::Isotropic)).unwrap();
+    let mut text = assemble(Pipeline::default()).unwrap();
     text.push_str("fn superfluous() -> f32 { return 1.0; }\n");
     let (module, _) = module_of(&text).unwrap();
     assert_eq!(left_over(&text, &module), ["superfluous"]);
@@ -153,58 +163,70 @@ fn a_function_that_nobody_calls_is_seen() {
 
 #[test]
 fn what_is_not_asked_for_leaves_no_trace() {
-    let plain = assemble(&ShaderOptions::robust(Variant::Isotropic)).unwrap();
+    let plain = assemble(Pipeline::default()).unwrap();
     for word in ["sin(", "lod", "frame", "sample", "pixel:", "hash_scale: f32) -> f32 {\n    return robust"] {
         assert!(!plain.contains(word), "{word}");
     }
-    // Every effect has words of its own: they are in the text with it, and in no other.
-    let stratify = |order| ShaderOptions {
-        stratify: Some(Stratify { frames: size(7), order }),
-        ..ShaderOptions::robust(Variant::Isotropic)
+    // Every stage has words of its own: they are in the text with it, and in no other.
+    let in_frames = |order| Pipeline {
+        frame_strata: Some(FrameStrata { frames: size(7), order }),
+        ..Pipeline::default()
     };
-    let of = |source| ShaderOptions { source, ..ShaderOptions::robust(Variant::Isotropic) };
-    let door = |door| of(Source::ScreenDoor(door));
-    let coverage = Some(Coverage { samples: size(4), strata: Strata::Shuffled });
-    let shuffled = ShaderOptions { coverage, ..ShaderOptions::robust(Variant::Isotropic) };
-    for (options, words) in [
-        (stratify(Order::Ascending), &["fn stratified"][..]),
-        (stratify(Order::Alternating), &["fn alternating"]),
-        (stratify(Order::VanDerCorput), &["fn radical_rank"]),
-        (stratify(Order::VanDerCorputLiteral), &["fn radical_inverse", "fn van_der_corput"]),
-        (stratify(Order::PhaseRotated), &["fn rotated(", "fn entered"]),
+    let door = |door| Pipeline::from(Source::ScreenDoor(door));
+    for (pipeline, words) in [
+        (in_frames(Order::Ascending), &["fn stratified"][..]),
+        (in_frames(Order::Alternating), &["fn alternating"]),
+        (in_frames(Order::VanDerCorput), &["fn radical_rank"]),
+        (in_frames(Order::VanDerCorputLiteral), &["fn radical_inverse", "fn van_der_corput"]),
+        (in_frames(Order::PhaseRotated), &["fn rotated(", "fn entered"]),
         (door(ScreenDoor::Fixed), &["fn ordered", "fn regular"]),
         (door(ScreenDoor::RandomMask(5)), &["fn random_mask", ", 5u)"]),
         (door(ScreenDoor::Randomised), &["fn randomised", "fn murmur_words"]),
-        (of(Source::PixelMask(size(4))), &["fn pixel_value", "fn turned"]),
-        (of(Source::Stipple(Density::Low)), &["fn is_apart", "select(1.0, 0.5"]),
-        (shuffled, &["fn shuffled", "fn pcg("]),
+        (sampled(4, SamplePattern::ByPixel), &["fn pixel_value", "fn turned"]),
+        (Source::Stipple { density: Density::Low, kept: 0.5 }.into(), &["fn is_apart", "select(1.0, 0.5"]),
+        (sampled(4, SamplePattern::Shuffled), &["fn shuffled", "fn pcg("]),
     ] {
-        let text = assemble(&options).unwrap();
+        let text = assemble(pipeline).unwrap();
         assert!(words.iter().all(|word| text.contains(word) && !plain.contains(word)), "{text}");
     }
-    assert!(!assemble(&stratify(Order::VanDerCorput)).unwrap().contains("fn alternating"));
-    let listing = assemble(&ShaderOptions::listing(Variant::Isotropic)).unwrap();
+    assert!(!assemble(in_frames(Order::VanDerCorput)).unwrap().contains("fn alternating"));
+    let listing = assemble(Pipeline::listing(Variant::Isotropic)).unwrap();
     for word in ["u32", "bitcast", "octave_word", "0.707", "select"] {
         assert!(!listing.contains(word), "{word}");
     }
-    assert!(
-        assemble(&ShaderOptions { source: Source::Fixed, ..ShaderOptions::listing(Variant::Single) })
-            .unwrap()
-            .ends_with("fn threshold() -> f32 {\n    return 0.5;\n}\n")
-    );
+    let fixed = assemble(Pipeline::from(Source::Fixed(0.5))).unwrap();
+    assert!(fixed.ends_with("fn threshold() -> f32 {\n    return 0.5;\n}\n"), "{fixed}");
 }
 
 #[test]
-fn bad_options_are_named() {
+fn pipelines_without_a_text_say_why() {
     for value in [0.0, -1.0, f32::NAN, f32::INFINITY] {
-        let options = ShaderOptions { hash_scale: Some(value), ..ShaderOptions::listing(Variant::Isotropic) };
-        assert!(matches!(assemble(&options), Err(InvalidOption { what: "the hash scale", .. })));
-        let fade_in = Some(FadeIn { full_noise_lod: value, anisotropy: false });
-        let options = ShaderOptions { fade_in, ..ShaderOptions::listing(Variant::Isotropic) };
-        assert!(matches!(assemble(&options), Err(InvalidOption { what: "the level of full noise", .. })));
+        let hashed = HashedAlpha { hash_scale: f64::from(value), ..HashedAlpha::default() };
+        let error = assemble(Pipeline::from(hashed));
+        assert!(matches!(error, Err(AssembleError::Number { what: "the hash scale", .. })), "{error:?}");
+        let fade_in = Some(FadeIn { full_noise_lod: value, ..FadeIn::default() });
+        let error = assemble(Pipeline { fade_in, ..Pipeline::default() });
+        assert!(
+            matches!(error, Err(AssembleError::Number { what: "the level of full noise", .. })),
+            "{error:?}"
+        );
     }
-    let smallest = ShaderOptions { hash_scale: Some(1.0e-45), ..ShaderOptions::robust(Variant::Isotropic) };
-    assert!(module_of(&assemble(&smallest).unwrap()).is_ok());
+    let smallest = Robust { hash_scale: 1.0e-45, ..Robust::default() };
+    assert!(module_of(&assemble(Pipeline::from(smallest)).unwrap()).is_ok());
+    let independence = Independence { frames: size(8), by: IndependentBy::Offset };
+    let authored = FadeIn { authored: 0.25, ..FadeIn::default() };
+    for pipeline in [
+        Source::Given.into(),
+        Source::Fixed(0.25).into(),
+        Source::Stipple { density: Density::High, kept: 0.25 }.into(),
+        sampled(4, SamplePattern::Hardware),
+        sampled(4, SamplePattern::Independent),
+        Pipeline { independence: Some(independence), ..Pipeline::default() },
+        Pipeline { fade_in: Some(authored), ..Pipeline::default() },
+    ] {
+        let error = assemble(pipeline);
+        assert!(matches!(error, Err(AssembleError::NoText(_))), "{pipeline:?}: {error:?}");
+    }
 }
 
 /// Names that naga had to change in a language: it adds `_` to what ends in a digit or means something there.
@@ -279,8 +301,8 @@ fn glsl(module: &Module, _: &ModuleInfo) -> String {
 
 #[test]
 fn every_name_is_kept_in_every_language() {
-    for options in plain().filter(|options| options.hash_scale.is_none()).chain(with_effects()) {
-        let (module, info) = module_of(&assemble(&options).unwrap()).unwrap();
+    for options in plain().filter(|options| options.hash_scale == HashScale::Parameter).chain(with_stages()) {
+        let (module, info) = module_of(&assemble(options).unwrap()).unwrap();
         assert_eq!(renamed(&module, &info), [], "{options:?}");
     }
 }

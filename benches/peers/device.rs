@@ -1,11 +1,12 @@
 //! Listing 1 in WGSL on the devices of this machine.
 
 use hashed_alpha::cost::pool::Pool;
-use hashed_alpha::shader::assemble::{ShaderOptions, assemble};
+use hashed_alpha::shader::assemble::assemble;
 use hashed_alpha::shader::gpu::adapter::{Adapter, adapters};
 use hashed_alpha::shader::gpu::{Choice, Device, Kernel, Program};
 use hashed_alpha::threshold::batch::{Batch, ColumnBuffer};
 use hashed_alpha::threshold::hash::HashKind;
+use hashed_alpha::threshold::pipeline::Pipeline;
 use hashed_alpha::threshold::two_scale::Variant;
 use std::time::{Duration, Instant};
 
@@ -32,8 +33,8 @@ pub struct Contestant {
 impl Contestant {
     /// Opens every device; one that does not answer is left out with a message.
     pub fn all(hash: HashKind) -> Vec<Self> {
-        let options = ShaderOptions { hash, ..ShaderOptions::listing(Variant::Isotropic) };
-        let listing = assemble(&options).expect("a hash scale of 1 can be written");
+        let options = Pipeline::listing(Variant::Isotropic).with_hash(hash);
+        let listing = assemble(options).expect("a hash scale of 1 can be written");
         let names: Vec<String> = adapters().iter().map(Adapter::name).collect();
         if names.is_empty() {
             println!("skipped: devices: there is no driver");

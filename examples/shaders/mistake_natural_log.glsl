@@ -1,7 +1,7 @@
 #version 100
-// A MISTAKE is in here, one that real ports make: the natural logarithm where Listing 1 has the one to base two. The
-// octaves lie a factor of 1.44 apart in the exponent, their cells do not nest, and the fraction does not run from 0 to
-// 1 within one octave: the noise jumps while the camera comes closer.
+// A MISTAKE is in here, one that real ports make: the natural logarithm where Listing 1 has the one to base two. A cell
+// is one pixel wide at a scale of 1 only. Each doubling of the scale makes cells smaller by 2^0.69 and not by 2, so that
+// the noise gets coarser the closer the camera comes, and finer than a pixel far away.
 precision mediump float;
 
 #define octaveOf(s) log(s)
@@ -15,8 +15,8 @@ float rand3(highp vec3 v) {
 }
 
 float threshold(highp vec3 position, float hash_scale) {
-    highp vec3 width = fwidth(position);
-    highp float scale = 1.0 / (hash_scale * max(width.x, max(width.y, width.z)));
+    highp float footprint = max(length(dFdx(position)), length(dFdy(position)));
+    highp float scale = 1.0 / (hash_scale * footprint);
     highp float lower = exp2(floor(octaveOf(scale)));
     highp float upper = exp2(ceil(octaveOf(scale)));
     float t = fract(octaveOf(scale));

@@ -1,4 +1,4 @@
-//! What was typed.
+//! Verbs, options and their help.
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Parser, Subcommand};
@@ -31,7 +31,7 @@ Examples:
 ///
 /// Hashed alpha testing discards a fragment when its alpha is below a threshold that is hashed from its place, so
 /// that noise stays put when camera or object move. This program evaluates that threshold, tries the claims of the
-/// paper on it with the evidence and the smallest defect that each trial would have seen, and writes a report.
+/// paper on it with the evidence and the smallest defect that each trial would have detected, and writes a report.
 /// Results go to stdout, progress to stderr.
 #[derive(Debug, Parser)]
 #[command(version, after_help = EXIT_CODES_AND_EXAMPLES, max_term_width = 100)]
@@ -98,8 +98,7 @@ pub struct CheckArgs {
     /// Write no report
     #[arg(long, conflicts_with = "out")]
     pub no_report: bool,
-    /// What the subjects are measured by: `all` claims, or `paper`, where a rejection that the paper's own listing is known
-    /// for does not count
+    /// Which rejections count: `all`, or `paper`, where one that the paper's own listing is known for does not
     #[arg(long, default_value = "all", value_parser = one_of(Suite::ALL, Suite::name))]
     pub suite: Suite,
     /// How many samples are drawn: `quick` for a quarter, `nightly` for sixteen times as many
@@ -140,7 +139,7 @@ impl On {
     }
 }
 
-/// What is to be known of a shader file
+/// How shader files are read and run
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "Shaders")]
 pub struct ShaderArgs {

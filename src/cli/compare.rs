@@ -56,11 +56,10 @@ pub fn run(args: &CompareArgs) -> Result<Ending, Failure> {
 /// or none without a device.
 #[cfg(feature = "gpu")]
 fn hashes(args: &CompareArgs) -> Option<String> {
-    use hashed_alpha::shader::assemble::ShaderOptions;
     use hashed_alpha::shader::gpu::{Choice, Device, parity};
-    use hashed_alpha::threshold::two_scale::Variant;
+    use hashed_alpha::threshold::robust::Robust;
     const CELLS: u32 = 1 << 17;
-    let name = format!("hash {}", ShaderOptions::robust(Variant::Isotropic).hash);
+    let name = format!("hash {}", Robust::default().hash);
     let stage = parity::stages().find(|stage| stage.name == name)?;
     let choice = args.shader.adapter.as_deref().map_or_else(Choice::from_environment, Choice::from);
     let device = Device::open(&choice).ok()?;

@@ -4,10 +4,13 @@ use super::args::ShaderTextArgs;
 use super::failure::Failure;
 use super::{Ending, output};
 use hashed_alpha::report::directory::write_atomically;
-use hashed_alpha::shader::assemble::{ShaderOptions, Source};
+use hashed_alpha::shader::assemble::{HashScale, ShaderOptions};
 use hashed_alpha::shader::export::{Language, export};
 use hashed_alpha::threshold::cdf::CdfForm;
-use hashed_alpha::threshold::robust::Join;
+use hashed_alpha::threshold::hash::HashKind;
+use hashed_alpha::threshold::hashed::HashedAlpha;
+use hashed_alpha::threshold::model::Model;
+use hashed_alpha::threshold::robust::{Join, Robust};
 use hashed_alpha::threshold::two_scale::Variant;
 use std::io::{IsTerminal, Write};
 
@@ -15,33 +18,35 @@ use std::io::{IsTerminal, Write};
 pub fn run(args: &ShaderTextArgs) -> Result<Ending, Failure> {
     // As `eval` has it: the ablations have no robust form.
     let is_ablation = matches!(args.variant, Variant::Linear | Variant::Single);
-    let preset = if args.literal || is_ablation { ShaderOptions::listing } else { ShaderOptions::robust }(
-        args.variant,
-    );
-    let source = match (preset.source, args.join) {
-        (Source::Robust(preset), join) => Source::Robust(join.unwrap_or(preset)),
-        (_, None | Some(Join::Interpolate)) if args.literal => Source::Listing(CdfForm::Literal),
-        (_, None) => Source::Listing(CdfForm::Stable),
-        (_, Some(_)) if args.literal => {
-            return Err(Failure::Usage("--literal joins as the listings do: interpolate".to_owned()));
+    let (variant, hash_scale) = (args.variant, f64::from(args.hash_scale));
+    let model: Model = if args.literal || is_ablation {
+        match args.join {
+            None | Some(Join::Interpolate) if args.literal => {}
+            None => {}
+            Some(_) if args.literal => {
+                return Err(Failure::Usage("--literal joins as the listings do: interpolate".to_owned()));
+            }
+            Some(_) => {
+                let message =
+                    format!("--join changes the robust threshold; {variant} is written as the paper has it");
+                return Err(Failure::Usage(message));
+            }
         }
-        (_, Some(_)) => {
-            let message = format!(
-                "--join changes the robust threshold; {} is written as the paper has it",
-                args.variant
-            );
-            return Err(Failure::Usage(message));
-        }
+        let form = if args.literal { CdfForm::Literal } else { CdfForm::Stable };
+        HashedAlpha { variant, hash: args.hash.unwrap_or(HashKind::Sine), hash_scale, form }.into()
+    } else {
+        let preset = Robust::new(variant);
+        let (hash, join) = (args.hash.unwrap_or(preset.hash), args.join.unwrap_or(preset.join));
+        Robust { hash, hash_scale, join, ..preset }.into()
     };
     let options = ShaderOptions {
-        hash: args.hash.unwrap_or(preset.hash),
-        hash_scale: if args.hash_scale_parameter { None } else { Some(args.hash_scale) },
-        source,
-        ..preset
+        pipeline: model.into(),
+        hash_scale: if args.hash_scale_parameter { HashScale::Parameter } else { HashScale::Written },
     };
-    let text = export(&options, args.lang).map_err(|error| Failure::Usage(error.to_string()))?;
+    let exported =
+        export(options, args.lang).map_err(|error| Failure::Usage(error.to_string()))?.into_bytes();
     if let Some(file) = &args.out {
-        write_atomically(file, &text)?;
+        write_atomically(file, &exported)?;
         return Ok(Ending::Consistent);
     }
     if args.lang == Language::SpirV && std::io::stdout().is_terminal() {
@@ -49,6 +54,6 @@ pub fn run(args: &ShaderTextArgs) -> Result<Ending, Failure> {
         return Err(Failure::Usage(message));
     }
     let mut results = output::results();
-    results.write_all(&text).and_then(|()| results.flush()).map_err(Failure::Output)?;
+    results.write_all(&exported).and_then(|()| results.flush()).map_err(Failure::Output)?;
     Ok(Ending::Consistent)
 }

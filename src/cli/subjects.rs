@@ -7,9 +7,9 @@ use super::shader_files::ShaderFile;
 use hashed_alpha::check::shaders;
 use hashed_alpha::check::{Subject, subject::Precision};
 use hashed_alpha::scene::{Fragment, Scene};
-use hashed_alpha::shader::assemble::ShaderOptions;
 use hashed_alpha::shader::interpreter::DeviceModel;
 use hashed_alpha::shader::own::{self, OwnShader};
+use hashed_alpha::threshold::pipeline::Pipeline;
 use hashed_alpha::threshold::robust::{Join, Robust};
 use hashed_alpha::threshold::two_scale::Variant;
 use std::path::Path;
@@ -141,11 +141,11 @@ fn built_in(name: &str, on: On, args: &ShaderArgs) -> Result<Option<Vec<Asked>>,
     all.retain(|subject| subject.precision == Precision::F32);
     let mut found = Vec::new();
     for twin in all {
-        let options = match family {
-            Family::Paper => ShaderOptions::listing(twin.variant),
-            Family::Robust => ShaderOptions::robust(twin.variant),
+        let pipeline = match family {
+            Family::Paper => Pipeline::listing(twin.variant),
+            Family::Robust => Pipeline::robust(twin.variant),
         };
-        let shader = own::assembled(&twin.name, &options)?;
+        let shader = own::assembled(&twin.name, pipeline)?;
         let claims = Claimed {
             variant: twin.variant,
             join: twin.join,

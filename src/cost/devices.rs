@@ -1,87 +1,41 @@
 //! The price list on a device: what each effect adds to the test of a fragment there, by the device's own clock.
 //!
-//! A row is a shader of [`assemble`], called over fragments that the device draws itself: nothing is sent, and all that is
+//! A row is the shader of a pipeline, called over fragments that the device draws itself: nothing is sent, and all that is
 //! fetched is how many samples a fragment keeps. Several samples a fragment are as many calls of the text; what they share is
 //! for the driver to find.
 
 use super::Effort;
 use super::clock::turns;
-use super::effects::{Price, listed};
-use crate::shader::assemble::{
-    Coverage, FadeIn, ScreenDoor, ShaderOptions, Source, Strata, Stratify, assemble,
-};
+use super::effects::{EFFECTS, EIGHT, Effect, HASHED, Price, Test, listed, row};
+use crate::shader::assemble::{ShaderOptions, assemble};
 use crate::shader::gpu::{Device, Error, Kernel, Program};
+use crate::threshold::batch::Tier;
 use crate::threshold::hash::HashKind;
-use crate::threshold::robust::Join;
-use crate::threshold::stage::order::Order;
-use crate::threshold::stage::stipple::Density;
+use crate::threshold::model::Model;
+use crate::threshold::pipeline::{Pipeline, Source};
+use crate::threshold::robust::{Join, Robust};
 use crate::threshold::two_scale::Variant;
-use core::num::NonZeroU16;
 use std::time::{Duration, Instant};
 
-/// Frames, and samples of a pixel, as in the paper's figures.
-const EIGHT: NonZeroU16 = NonZeroU16::new(8).unwrap();
+const DITHERED: Robust = Robust { join: Join::Dithered, ..Robust::new(Variant::Anisotropic) };
 
-/// One line of the list; names, places and bases are those of the CPU's list where both have the row.
-struct Effect {
-    name: &'static str,
-    /// Where the sources have it.
-    source: &'static str,
-    /// The row to which it is an addition; itself for none.
-    over: &'static str,
-    shader: ShaderOptions,
-}
-
-const HASHED: ShaderOptions = ShaderOptions::listing(Variant::Isotropic);
-const ANISOTROPIC: ShaderOptions = ShaderOptions::listing(Variant::Anisotropic);
-const COPULA: ShaderOptions = ShaderOptions::robust(Variant::Anisotropic);
-
-#[rustfmt::skip]
-const EFFECTS: &[Effect] = &[
-    row("fixed", "§1", "fixed", of(Source::Fixed)),
-    row("stochastic", "§4", "fixed", of(Source::Stochastic)),
-    row("hashed", "Listing 1", "fixed", HASHED),
-    row("hashed, mm4", "not in the paper", "fixed", ShaderOptions { hash: HashKind::Mm4, ..HASHED }),
-    row("anisotropic", "Listing 2", "fixed", ANISOTROPIC),
-    row("robust", "not in the paper", "fixed", ShaderOptions::robust(Variant::Isotropic)),
-    row("robust anisotropic", "not in the paper", "fixed", COPULA),
-    row("robust anisotropic, dithered", "not in the paper", "fixed", ShaderOptions { source: Source::Robust(Join::Dithered), ..COPULA }),
-    row("hashed, fade-in", "Eqs. 4, 5", "hashed", faded(HASHED, false)),
-    row("hashed, fade-in by anisotropy", "§7.1.1", "hashed", faded(HASHED, true)),
-    row("hashed, over 8 frames", "Eq. 6", "hashed", over_frames(HASHED)),
-    row("alpha to coverage, 8 regular", "Eq. 7", "fixed", of(Source::Regular(EIGHT))),
-    row("alpha to coverage, 8 by pixel", "Humus 2009", "fixed", of(Source::PixelMask(EIGHT))),
-    row("hashed, 8 jittered samples", "Eq. 8", "hashed", sampled(HASHED, Strata::InOrder)),
-    row("hashed, 8 decorrelated samples", "Eq. 9", "hashed", sampled(HASHED, Strata::Decorrelated)),
-    row("hashed, 8 shuffled samples", "§3 (Enderton et al. 2010)", "hashed", sampled(HASHED, Strata::Shuffled)),
-    row("screen door, fixed", "§3", "fixed", of(Source::ScreenDoor(ScreenDoor::Fixed))),
-    row("screen door, random", "§3", "fixed", of(Source::ScreenDoor(ScreenDoor::RandomMask(0)))),
-    row("screen door, hashed", "§8.1", "fixed", of(Source::ScreenDoor(ScreenDoor::Randomised))),
-    row("stipple", "Ols 2009", "fixed", of(Source::Stipple(Density::High))),
-    // What the paper combines.
-    row("hashed, over 8 frames, 8 decorrelated samples", "§7.2, §8", "hashed", sampled(over_frames(HASHED), Strata::Decorrelated)),
-    row("anisotropic, over 8 frames, fade-in by anisotropy", "§7", "anisotropic", faded(over_frames(ANISOTROPIC), true)),
+/// Rows that only a device has.
+const MORE: [Effect; 2] = [
+    row("hashed, mm4", "not in the paper", "fixed", HASHED.with_hash(HashKind::Mm4)),
+    row(
+        "robust anisotropic, dithered",
+        "not in the paper",
+        "fixed",
+        Pipeline::of(Source::Hash(Model::Robust(DITHERED))),
+    ),
 ];
 
-const fn row(name: &'static str, source: &'static str, over: &'static str, shader: ShaderOptions) -> Effect {
-    Effect { name, source, over, shader }
-}
-
-const fn of(source: Source) -> ShaderOptions {
-    ShaderOptions { source, ..HASHED }
-}
-
-/// Noise that fades in over six levels of detail (§7.1).
-const fn faded(base: ShaderOptions, anisotropy: bool) -> ShaderOptions {
-    ShaderOptions { fade_in: Some(FadeIn { full_noise_lod: 6.0, anisotropy }), ..base }
-}
-
-const fn over_frames(base: ShaderOptions) -> ShaderOptions {
-    ShaderOptions { stratify: Some(Stratify { frames: EIGHT, order: Order::Ascending }), ..base }
-}
-
-const fn sampled(base: ShaderOptions, strata: Strata) -> ShaderOptions {
-    ShaderOptions { coverage: Some(Coverage { samples: EIGHT, strata }), ..base }
+/// The rows of the CPU's list that are a shader, and those that only a device has.
+fn effects() -> impl Iterator<Item = &'static Effect> {
+    let is_shader = |effect: &&Effect| {
+        effect.tier == Tier::BitExact && effect.test == Test::Alpha && assemble(effect.pipeline).is_ok()
+    };
+    EFFECTS.iter().filter(is_shader).chain(&MORE)
 }
 
 /// How many steps [`prices`] reports.
@@ -100,14 +54,12 @@ pub fn steps(effort: Effort) -> u64 {
 ///
 /// What the device says where it cannot go on.
 pub fn prices(device: &Device, effort: Effort, done: &dyn Fn()) -> Result<Vec<Price>, Error> {
-    let programs: Vec<Program> = EFFECTS
-        .iter()
-        .map(|effect| device.compile(&kernel(&effect.shader)?))
-        .collect::<Result<_, Error>>()?;
+    let programs: Vec<Program> =
+        effects().map(|effect| device.compile(&kernel(effect.pipeline)?)).collect::<Result<_, Error>>()?;
     // Drivers finish a program when it is first run.
     programs.iter().try_for_each(|program| program.draw(0, 1).map(drop))?;
     let fragments = effort.pick(1 << 16, 1 << 20);
-    let rows: Vec<_> = EFFECTS.iter().map(|effect| [effect.name, effect.source, effect.over]).collect();
+    let rows: Vec<_> = effects().map(|effect| [effect.name, effect.source, effect.over]).collect();
     let mut failed = None;
     let times = turns(
         programs.len(),
@@ -127,7 +79,8 @@ pub fn prices(device: &Device, effort: Effort, done: &dyn Fn()) -> Result<Vec<Pr
     }
 }
 
-fn kernel(options: &ShaderOptions) -> Result<Kernel, Error> {
+fn kernel(pipeline: Pipeline) -> Result<Kernel, Error> {
+    let options = ShaderOptions::from(pipeline);
     let text = assemble(options).map_err(|error| Error::Validation(error.to_string()))?;
     let names: Vec<&str> = options.parameters().iter().map(|parameter| parameter.name).collect();
     let samples = if names.contains(&"sample_index") { EIGHT.get() } else { 1 };
@@ -149,10 +102,11 @@ mod tests {
 
     #[test]
     fn every_row_is_an_addition_to_one_that_is_listed_and_a_valid_shader() {
-        for Effect { name, over, shader, .. } in EFFECTS {
-            assert!(EFFECTS.iter().any(|effect| effect.name == *over), "{name}");
-            assert_eq!(EFFECTS.iter().filter(|effect| effect.name == *name).count(), 1);
-            let kernel = kernel(shader).expect("the options can be written");
+        assert_eq!(effects().count(), 22);
+        for Effect { name, over, pipeline, .. } in effects() {
+            assert!(effects().any(|effect| effect.name == *over), "{name}");
+            assert_eq!(effects().filter(|effect| effect.name == *name).count(), 1);
+            let kernel = kernel(*pipeline).expect("the options can be written");
             let module = naga::front::wgsl::parse_str(&kernel.source).expect(name);
             let mut validator = naga::valid::Validator::new(
                 naga::valid::ValidationFlags::all(),

@@ -1,134 +1,128 @@
 //! The price list: what each effect of the paper adds to the test of a fragment, on one core.
 //!
-//! A row is functions of fragments that make thresholds, change them, and test alphas against them. To add an effect,
-//! write what it does and name the row that it is an addition to.
+//! A row is a pipeline over fragments, and alphas against its thresholds. To add an effect, write its pipeline and name the
+//! row that it is an addition to.
 
 use super::Effort;
 use super::clock::{Contender, Time, race};
 use super::pool::{Pool, SLICE, WIDE};
 use crate::stats::seed;
 use crate::technique::multisampling::sample_place;
-use crate::threshold::stage::stipple::{self, Density};
-
-use crate::threshold::batch::{Batch, Model, Tier};
+use crate::threshold::batch::Tier;
+use crate::threshold::cdf::CdfForm;
 use crate::threshold::fixed::{FIXED_THRESHOLD, passes};
-use crate::threshold::hash::{HashKind, integer::pcg4d, open_lattice};
-use crate::threshold::hashed::HashedAlpha;
-use crate::threshold::robust::Robust;
-use crate::threshold::stage::fade_in::{anisotropy, blend, fade_in};
-use crate::threshold::stage::{coverage, mask, screen_door, stratify};
+use crate::threshold::pipeline::{
+    FadeIn, FrameStrata, InputColumns, Pipeline, SamplePattern, SampleStrata, ScreenDoor, Source,
+};
+use crate::threshold::stage::order::Order;
+use crate::threshold::stage::stipple::Density;
 use crate::threshold::two_scale::Variant;
-use crate::threshold::{cdf::CdfForm, stochastic};
 use core::num::NonZeroU32;
-use rand::{RngExt, SeedableRng, rngs::Xoshiro256PlusPlus};
-
-/// The thresholds of a slice of fragments.
-type Thresholds = [f32];
+use rand::{Rng, RngExt, SeedableRng, rngs::Xoshiro256PlusPlus};
 
 /// One line of the list.
-struct Effect {
-    name: &'static str,
+pub(super) struct Effect {
+    pub name: &'static str,
     /// Where the sources have it.
-    source: &'static str,
+    pub source: &'static str,
     /// The row to which it is an addition; itself for none.
-    over: &'static str,
-    /// What makes the thresholds of a slice, and what changes them, in turn.
-    make: &'static [Step],
-    /// Tests the fragments of a slice; returns how many samples were kept.
-    test: Test,
-    /// The samples of a fragment.
-    samples: u32,
+    pub over: &'static str,
+    /// What makes the thresholds of a slice.
+    pub pipeline: Pipeline,
+    pub tier: Tier,
+    pub test: Test,
 }
 
-type Step = fn(&Fragments, usize, &mut Thresholds);
-type Test = fn(&Fragments, usize, &Thresholds) -> u32;
+/// What is tested against the thresholds.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Test {
+    /// The alpha of each fragment.
+    Alpha,
+    /// That, and geometry at eight places of its pixel.
+    AlphaAndGeometry,
+}
 
 /// Frames over which Eq. 6 spreads thresholds, and samples of alpha-to-coverage, as in the paper's figures.
-const EIGHT: NonZeroU32 = NonZeroU32::new(8).unwrap();
+pub(super) const EIGHT: NonZeroU32 = NonZeroU32::new(8).unwrap();
 
-/// The levels of detail over which noise fades in (§7.1).
-const FADE_LEVELS: f32 = 6.0;
-
-const FIXED: Step = |_, _, t| t.fill(FIXED_THRESHOLD as f32);
-const HASHED: Step = |f, slice, t| f.hashed(Variant::Isotropic, slice, t);
-const ANISOTROPIC: Step = |f, slice, t| f.hashed(Variant::Anisotropic, slice, t);
-const ROBUST: Step = |f, slice, t| f.robust(Variant::Isotropic, slice, t);
-const ROBUST_ANISOTROPIC: Step = |f, slice, t| f.robust(Variant::Anisotropic, slice, t);
-const PIXEL: Step = |_, _, t| by_pixel(t, mask::pixel_value);
-const DOOR: Step = |_, _, t| by_pixel(t, screen_door::fixed);
-const RANDOM_DOOR: Step = |_, _, t| {
-    const SIDE: u32 = screen_door::TILE;
-    let mask: [f32; (SIDE * SIDE) as usize] =
-        core::array::from_fn(|k| screen_door::random_mask([k as u32 % SIDE, k as u32 / SIDE], 0));
-    by_pixel(t, |[x, y]| mask[(y % SIDE * SIDE + x % SIDE) as usize]);
-};
-const HASHED_DOOR: Step = |_, slice, t| by_pixel(t, |pixel| screen_door::randomised(pixel, slice as u32));
-const STIPPLE: Step =
-    |_, _, t| by_pixel(t, |pixel| stipple::threshold(Density::High, pixel, FIXED_THRESHOLD as f32));
-
-const REGULAR: Test = |f, slice, _| f.cover(slice, |_| |i| coverage::regular(i, EIGHT));
-const HARDWARE: Test = |f, slice, _| f.cover(slice, |_| |i| mask::hardware_threshold(i, EIGHT));
-const TURNED: Test = |f, slice, t| f.cover(slice, |k| move |i| mask::turned(t[k], i, EIGHT));
-const JITTERED: Test = |f, slice, t| f.cover(slice, |k| move |i| coverage::jittered(t[k], i, EIGHT));
-const DECORRELATED: Test = |f, slice, t| {
-    f.cover(slice, |k| {
-        let [_, first, second, _] = words(k, slice);
-        let xi: [f32; 2] = [first, second].map(open_lattice);
-        move |i| coverage::jittered(t[k], coverage::decorrelated(xi, i, EIGHT), EIGHT)
-    })
-};
-const SHUFFLED: Test = |f, slice, t| {
-    f.cover(slice, |k| {
-        let [_, _, _, word] = words(k, slice);
-        move |i| coverage::jittered(t[k], mask::shuffled(word, i, EIGHT), EIGHT)
-    })
-};
+const FIXED: Pipeline = Pipeline::of(Source::Fixed(FIXED_THRESHOLD as f32));
+pub(super) const HASHED: Pipeline = Pipeline::listing(Variant::Isotropic);
+const ANISOTROPIC: Pipeline = Pipeline::listing(Variant::Anisotropic);
 
 #[rustfmt::skip]
-const EFFECTS: &[Effect] = &[
-    row("fixed", "§1", "fixed", &[FIXED]),
-    row("stochastic", "§4", "fixed", &[Fragments::stochastic]),
-    row("hashed", "Listing 1", "fixed", &[HASHED]),
-    row("hashed, fast sine", "Listing 1", "fixed", &[Fragments::hashed_fast]),
-    row("anisotropic", "Listing 2", "fixed", &[ANISOTROPIC]),
-    row("robust", "not in the paper", "fixed", &[ROBUST]),
-    row("robust anisotropic", "not in the paper", "fixed", &[ROBUST_ANISOTROPIC]),
-    row("hashed, fade-in", "Eqs. 4, 5", "hashed", &[HASHED, Fragments::fade]),
-    row("hashed, fade-in by anisotropy", "§7.1.1", "hashed", &[HASHED, Fragments::fade_anisotropic]),
-    row("hashed, over 8 frames", "Eq. 6", "hashed", &[HASHED, stratified]),
-    row("multisampled geometry, 8 places", "§1, §8", "fixed", &[FIXED]).with_samples(Fragments::test_and_cover),
-    row("alpha to coverage, 8 regular", "Eq. 7", "fixed", &[]).with_samples(REGULAR),
-    row("alpha to coverage, 8 as hardware", "§3, §8", "fixed", &[]).with_samples(HARDWARE),
-    row("alpha to coverage, 8 by pixel", "Humus 2009", "fixed", &[PIXEL]).with_samples(TURNED),
-    row("hashed, 8 jittered samples", "Eq. 8", "hashed", &[HASHED]).with_samples(JITTERED),
-    row("hashed, 8 decorrelated samples", "Eq. 9", "hashed", &[HASHED]).with_samples(DECORRELATED),
-    row("hashed, 8 shuffled samples", "§3 (Enderton et al. 2010)", "hashed", &[HASHED]).with_samples(SHUFFLED),
-    row("screen door, fixed", "§3", "fixed", &[DOOR]),
-    row("screen door, random", "§3", "fixed", &[RANDOM_DOOR]),
-    row("screen door, hashed", "§8.1", "fixed", &[HASHED_DOOR]),
-    row("stipple", "Ols 2009", "fixed", &[STIPPLE]),
+pub(super) const EFFECTS: &[Effect] = &[
+    row("fixed", "§1", "fixed", FIXED),
+    row("stochastic", "§4", "fixed", Pipeline::of(Source::Stochastic)),
+    row("hashed", "Listing 1", "fixed", HASHED),
+    Effect { tier: Tier::Fast, ..row("hashed, fast sine", "Listing 1", "fixed", HASHED) },
+    row("anisotropic", "Listing 2", "fixed", ANISOTROPIC),
+    row("robust", "not in the paper", "fixed", Pipeline::robust(Variant::Isotropic)),
+    row("robust anisotropic", "not in the paper", "fixed", Pipeline::robust(Variant::Anisotropic)),
+    row("hashed, fade-in", "Eqs. 4, 5", "hashed", faded(HASHED, false)),
+    row("hashed, fade-in by anisotropy", "§7.1.1", "hashed", faded(HASHED, true)),
+    row("hashed, over 8 frames", "Eq. 6", "hashed", over_frames(HASHED)),
+    Effect { test: Test::AlphaAndGeometry, ..row("multisampled geometry, 8 places", "§1, §8", "fixed", FIXED) },
+    row("alpha to coverage, 8 regular", "Eq. 7", "fixed", sampled(FIXED, SamplePattern::Regular)),
+    row("alpha to coverage, 8 as hardware", "§3, §8", "fixed", sampled(FIXED, SamplePattern::Hardware)),
+    row("alpha to coverage, 8 by pixel", "Humus 2009", "fixed", sampled(FIXED, SamplePattern::ByPixel)),
+    row("hashed, 8 jittered samples", "Eq. 8", "hashed", sampled(HASHED, SamplePattern::Jittered)),
+    row("hashed, 8 decorrelated samples", "Eq. 9", "hashed", sampled(HASHED, SamplePattern::Decorrelated)),
+    row("hashed, 8 shuffled samples", "§3 (Enderton et al. 2010)", "hashed", sampled(HASHED, SamplePattern::Shuffled)),
+    row("screen door, fixed", "§3", "fixed", Pipeline::of(Source::ScreenDoor(ScreenDoor::Fixed))),
+    row("screen door, random", "§3", "fixed", Pipeline::of(Source::ScreenDoor(ScreenDoor::RandomMask(0)))),
+    row("screen door, hashed", "§8.1", "fixed", Pipeline::of(Source::ScreenDoor(ScreenDoor::Randomised))),
+    row("stipple", "Ols 2009", "fixed", Pipeline::of(Source::Stipple { density: Density::High, kept: FIXED_THRESHOLD as f32 })),
     // What the paper combines.
-    row("hashed, over 8 frames, 8 decorrelated samples", "§7.2, §8", "hashed", &[HASHED, stratified]).with_samples(DECORRELATED),
-    row("anisotropic, over 8 frames, fade-in by anisotropy", "§7", "anisotropic", &[ANISOTROPIC, stratified, Fragments::fade_anisotropic]),
+    row("hashed, over 8 frames, 8 decorrelated samples", "§7.2, §8", "hashed", sampled(over_frames(HASHED), SamplePattern::Decorrelated)),
+    row("anisotropic, over 8 frames, fade-in by anisotropy", "§7", "anisotropic", faded(over_frames(ANISOTROPIC), true)),
 ];
 
+/// One test of alpha against each threshold.
+pub(super) const fn row(
+    name: &'static str,
+    source: &'static str,
+    over: &'static str,
+    pipeline: Pipeline,
+) -> Effect {
+    Effect { name, source, over, pipeline, tier: Tier::BitExact, test: Test::Alpha }
+}
+
+/// Noise that fades in over six levels of detail (§7.1).
+const fn faded(base: Pipeline, anisotropy: bool) -> Pipeline {
+    let fade_in = FadeIn { authored: FIXED_THRESHOLD as f32, full_noise_lod: 6.0, anisotropy };
+    Pipeline { fade_in: Some(fade_in), form: CdfForm::Stable, ..base }
+}
+
+const fn over_frames(base: Pipeline) -> Pipeline {
+    let strata = FrameStrata { frames: EIGHT, order: Order::Ascending };
+    Pipeline { frame_strata: Some(strata), form: CdfForm::Stable, ..base }
+}
+
+const fn sampled(base: Pipeline, pattern: SamplePattern) -> Pipeline {
+    let strata = SampleStrata { samples: EIGHT, pattern };
+    Pipeline { sample_strata: Some(strata), form: CdfForm::Stable, ..base }
+}
+
 impl Effect {
-    /// The same with eight samples a fragment.
-    const fn with_samples(self, test: Test) -> Self {
-        Self { test, samples: EIGHT.get(), ..self }
+    /// Room for the thresholds of a slice.
+    fn buffer(&self) -> Vec<f32> {
+        vec![0.0; SLICE * self.pipeline.samples().get() as usize]
     }
 
     /// Returns the share of the samples of a slice that is kept.
-    fn kept(&self, fragments: &Fragments, slice: usize, thresholds: &mut Thresholds) -> f64 {
-        self.make.iter().for_each(|step| step(fragments, slice, thresholds));
-        let kept = (self.test)(fragments, slice, thresholds);
-        f64::from(kept) / f64::from(self.samples) / SLICE as f64
+    fn kept(&self, fragments: &Fragments, slice: usize, thresholds: &mut [f32]) -> f64 {
+        let mut rng = None;
+        let mut random =
+            || rng.get_or_insert_with(|| Xoshiro256PlusPlus::seed_from_u64(slice as u64)).next_u32();
+        self.pipeline.thresholds(self.tier, &fragments.columns(slice), &mut random, thresholds);
+        let (kept, of) = match self.test {
+            Test::Alpha => (fragments.test(slice, thresholds), thresholds.len()),
+            Test::AlphaAndGeometry => {
+                (fragments.test_and_cover(slice, thresholds), EIGHT.get() as usize * SLICE)
+            }
+        };
+        f64::from(kept) / of as f64
     }
-}
-
-/// One test a fragment.
-const fn row(name: &'static str, source: &'static str, over: &'static str, make: &'static [Step]) -> Effect {
-    Effect { name, source, over, make, test: |f, slice, t| f.test(slice, t), samples: 1 }
 }
 
 /// Fragments in slices.
@@ -136,6 +130,9 @@ struct Fragments {
     pool: Pool<f32>,
     /// What is tested.
     alpha: Vec<f32>,
+    /// Columns and rows: a square of 64 x 64 pixels or more.
+    pixel: Vec<[u32; 2]>,
+    layer: Vec<u32>,
     /// Levels of detail, -2 to 8.
     level: Vec<f32>,
     /// Lengths of the derivatives of texture coordinates.
@@ -148,8 +145,23 @@ impl Fragments {
         Self {
             pool: Pool::new(WIDE, slices),
             alpha: (0..SLICE).map(|_| rng.random()).collect(),
+            pixel: (0..SLICE as u32).map(|k| [k % 64, k / 64]).collect(),
+            layer: (0..SLICE as u32).map(|k| k % 5).collect(),
             level: (0..SLICE).map(|_| rng.random_range(-2.0..8.0)).collect(),
             lengths: (0..SLICE).map(|_| [rng.random_range(0.01..1.0), rng.random_range(0.01..1.0)]).collect(),
+        }
+    }
+
+    /// The fragments of a slice, which are those of a frame.
+    fn columns(&self, slice: usize) -> InputColumns<'_, f32> {
+        InputColumns {
+            footprint: self.pool.columns(slice),
+            pixel: &self.pixel,
+            frame: slice as u32,
+            layer: &self.layer,
+            lod: &self.level,
+            texel: &self.lengths,
+            given: &[],
         }
     }
 
@@ -158,52 +170,16 @@ impl Fragments {
         self.alpha[(fragment + 977 * slice) % SLICE]
     }
 
-    fn test(&self, slice: usize, thresholds: &Thresholds) -> u32 {
-        let kept = |(i, &threshold): (usize, &f32)| u32::from(passes(self.alpha(slice, i), threshold));
-        thresholds.iter().enumerate().map(kept).sum()
-    }
-
-    fn stochastic(&self, slice: usize, thresholds: &mut Thresholds) {
-        let mut rng = Xoshiro256PlusPlus::seed_from_u64(slice as u64);
-        thresholds.fill_with(|| stochastic::threshold(&mut rng));
-    }
-
-    fn hashed(&self, variant: Variant, slice: usize, thresholds: &mut Thresholds) {
-        Batch::new(listing(variant)).thresholds(&self.pool.columns(slice), thresholds);
-    }
-
-    fn hashed_fast(&self, slice: usize, thresholds: &mut Thresholds) {
-        let batch = Batch { tier: Tier::Fast, ..Batch::new(listing(Variant::Isotropic)) };
-        batch.thresholds(&self.pool.columns(slice), thresholds);
-    }
-
-    fn robust(&self, variant: Variant, slice: usize, thresholds: &mut Thresholds) {
-        Batch::new(Robust::new(variant)).thresholds(&self.pool.columns(slice), thresholds);
-    }
-
-    fn fade(&self, _: usize, thresholds: &mut Thresholds) {
-        for (threshold, &level) in thresholds.iter_mut().zip(&self.level) {
-            *threshold = fade_in(*threshold, blend(level, FADE_LEVELS));
-        }
-    }
-
-    fn fade_anisotropic(&self, _: usize, thresholds: &mut Thresholds) {
-        for ((threshold, &level), &lengths) in thresholds.iter_mut().zip(&self.level).zip(&self.lengths) {
-            *threshold = fade_in(*threshold, blend(level * anisotropy(lengths), FADE_LEVELS));
-        }
-    }
-
-    /// Tests eight samples a fragment against thresholds of their own, which the fragment's function makes of them.
-    fn cover<S: Fn(u32) -> f32>(&self, slice: usize, of_fragment: impl Fn(usize) -> S) -> u32 {
-        let covered = |k: usize| -> u32 {
-            let (alpha, threshold) = (self.alpha(slice, k), of_fragment(k));
-            (0..EIGHT.get()).map(|i| u32::from(passes(alpha, threshold(i)))).sum()
+    fn test(&self, slice: usize, thresholds: &[f32]) -> u32 {
+        let kept = |(k, thresholds): (usize, &[f32])| -> u32 {
+            let alpha = self.alpha(slice, k);
+            thresholds.iter().map(|&threshold| u32::from(passes(alpha, threshold))).sum()
         };
-        (0..SLICE).map(covered).sum()
+        thresholds.chunks_exact(thresholds.len() / SLICE).enumerate().map(kept).sum()
     }
 
     /// Tests alpha once and geometry at eight places: three edges of a triangle, of which one cuts each pixel in half.
-    fn test_and_cover(&self, slice: usize, thresholds: &Thresholds) -> u32 {
+    fn test_and_cover(&self, slice: usize, thresholds: &[f32]) -> u32 {
         let places: [[f32; 2]; EIGHT.get() as usize] =
             core::array::from_fn(|i| sample_place(i as u32, EIGHT).map(|c| c as f32));
         let covered = |(k, &threshold): (usize, &f32)| -> u32 {
@@ -215,29 +191,6 @@ impl Fragments {
         };
         thresholds.iter().enumerate().map(covered).sum()
     }
-}
-
-/// The pixel of a fragment of a slice, which covers a square of 64 x 64 pixels or more.
-fn pixel(fragment: usize) -> [u32; 2] {
-    [fragment as u32 % 64, fragment as u32 / 64]
-}
-
-fn by_pixel(thresholds: &mut Thresholds, threshold: impl Fn([u32; 2]) -> f32) {
-    thresholds.iter_mut().enumerate().for_each(|(k, t)| *t = threshold(pixel(k)));
-}
-
-/// Random numbers of a fragment.
-fn words(fragment: usize, slice: usize) -> [u32; 4] {
-    pcg4d([fragment as u32, slice as u32, 0, 0])
-}
-
-fn stratified(_: &Fragments, frame: usize, thresholds: &mut Thresholds) {
-    let frame = frame as u32 % EIGHT;
-    thresholds.iter_mut().for_each(|t| *t = stratify::stratified(*t, frame, EIGHT));
-}
-
-fn listing(variant: Variant) -> Model {
-    HashedAlpha { variant, hash: HashKind::Sine, hash_scale: 1.0, form: CdfForm::Literal }.into()
 }
 
 /// What an effect costs.
@@ -272,7 +225,7 @@ pub fn prices(effort: Effort, done: &dyn Fn()) -> Vec<Price> {
     let mut contenders: Vec<Contender<'_>> = EFFECTS
         .iter()
         .map(|effect| {
-            let mut thresholds = vec![0.0; SLICE];
+            let mut thresholds = effect.buffer();
             let run = move |slice| effect.kept(fragments, slice, &mut thresholds);
             Contender {
                 items: SLICE,
@@ -348,8 +301,7 @@ mod tests {
         // change the mean either.
         let fragments = Fragments::new(2);
         for effect in EFFECTS {
-            let mut thresholds = vec![0.0; SLICE];
-            let share = effect.kept(&fragments, 1, &mut thresholds);
+            let share = effect.kept(&fragments, 1, &mut effect.buffer());
             // Hardware keeps `floor` of 8 alpha, half a sample less; the stipple a quarter less; edges cut pixels in half; the
             // listing is NaN nowhere here.
             let expected = match effect.name {

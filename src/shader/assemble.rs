@@ -5,163 +5,73 @@
 //! Rust computes in `f64`, and the sine hash are stated apart where they are tested.
 
 use crate::threshold::cdf::CdfForm;
+use crate::threshold::fixed::FIXED_THRESHOLD;
 use crate::threshold::hash::HashKind;
-use crate::threshold::robust::Join;
+use crate::threshold::hashed::HashedAlpha;
+use crate::threshold::model::Model;
+use crate::threshold::pipeline::{
+    FadeIn, FrameStrata, Pipeline, SamplePattern, SampleStrata, ScreenDoor, Source,
+};
+use crate::threshold::robust::{Join, Repairs, Robust};
 use crate::threshold::stage::order::Order;
 use crate::threshold::stage::stipple::Density;
 use crate::threshold::two_scale::Variant;
 use core::fmt::Write as _;
-use core::num::NonZeroU16;
 
-/// Where the threshold comes from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Source {
-    /// Listings 1 and 2 and their ablations (§5, §6); `Literal` to the letter, see [`HashedAlpha::form`].
-    ///
-    /// [`HashedAlpha::form`]: crate::threshold::hashed::HashedAlpha::form
-    Listing(CdfForm),
-    /// Listings 1 and 2 with every repair, see [`Robust`](crate::threshold::robust::Robust). An input that is no finite
-    /// number, an error in Rust, gives the traditional 1/2.
-    Robust(Join),
-    /// A fresh random number in every pixel, frame and layer (§4).
-    Stochastic,
-    /// The traditional alpha test, 1/2 (§1).
-    Fixed,
-    /// The fixed dither of so many samples (Eq. 7).
-    Regular(NonZeroU16),
-    /// Regular thresholds of so many samples, turned by one value of the pixel (Humus 2009).
-    PixelMask(NonZeroU16),
-    /// Strata over tiles of pixels (§3, §8.1).
-    ScreenDoor(ScreenDoor),
-    /// The traditional alpha test with holes of one pixel, or of three (Ols 2009).
-    Stipple(Density),
-}
-
-/// Which threshold a pixel of a tile of 4 x 4 has, see [`screen_door`](crate::threshold::stage::screen_door).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum ScreenDoor {
-    /// The ordered dither, the same in every tile and for every layer.
-    Fixed,
-    /// An order that this seed draws, the same in every tile and for every layer.
-    RandomMask(u32),
-    /// Strata that are permuted and jittered for each tile and layer.
-    Randomised,
-}
-
-/// Fading noise in with distance (Eqs. 3 to 5).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FadeIn {
-    /// Level of detail from which on all is noise (`n` of Eq. 5), above 0.
-    pub full_noise_lod: f32,
-    /// Whether the level is multiplied by the degree of anisotropy of the texture access (§7.1.1).
-    pub anisotropy: bool,
-}
-
-/// Dividing [0, 1) among frames (Eq. 6).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Stratify {
-    /// Number of frames that belong together.
-    pub frames: NonZeroU16,
-    /// Which stratum a frame takes (§7.2.3).
-    pub order: Order,
-}
-
-/// Several thresholds in one fragment (Eqs. 8 and 9).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Coverage {
-    /// Number of samples in a pixel.
-    pub samples: NonZeroU16,
-    /// In which order the samples have the strata.
-    pub strata: Strata,
-}
-
-/// The order of the strata of a pixel's samples.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Strata {
-    /// The same in every pixel and layer (Eq. 8).
-    InOrder,
-    /// An offset and a step for each pixel and layer, and for each frame if the threshold reads it (Eq. 9).
-    Decorrelated,
-    /// The same with any permutation (§3, Enderton et al. 2010).
-    Shuffled,
-}
-
-/// What the text is to do. Stages act in the order of the fields from `source` on; what is `None` leaves no trace.
+/// What the text is to do.
 ///
-/// The effects are literal where the source is literal, and in their stable form with every other.
+/// In the text [`Source::Stochastic`] hashes pixel, frame and layer, and a robust threshold without a finite footprint, an
+/// error in Rust, is the traditional 1/2.
 ///
 /// ```
-/// use hashed_alpha::shader::assemble::{ShaderOptions, assemble};
-/// use hashed_alpha::threshold::two_scale::Variant;
+/// use hashed_alpha::shader::assemble::assemble;
+/// use hashed_alpha::threshold::pipeline::Pipeline;
 ///
-/// let text = assemble(&ShaderOptions::robust(Variant::Isotropic)).unwrap();
+/// let text = assemble(Pipeline::default()).unwrap();
 /// assert!(text.contains("fn threshold(position: vec3<f32>, dpdx: vec3<f32>, dpdy: vec3<f32>) -> f32"));
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ShaderOptions {
-    /// How scales come from derivatives. The robust source reads every variant but the anisotropic as isotropic.
-    pub variant: Variant,
-    /// The hash of a cell.
-    pub hash: HashKind,
-    /// Size of the noise in pixels, finite and above 0, written into the text; `None` makes it a parameter.
-    pub hash_scale: Option<f32>,
-    /// Where the threshold comes from. Only the first two read the fields above.
-    pub source: Source,
-    /// Strata of frames.
-    pub stratify: Option<Stratify>,
-    /// Strata of samples.
-    pub coverage: Option<Coverage>,
-    /// Noise that fades in.
-    pub fade_in: Option<FadeIn>,
+    /// Source and stages.
+    pub pipeline: Pipeline,
+    /// Whether the size of the noise is written into the text, or asked of who calls.
+    pub hash_scale: HashScale,
+}
+
+/// Where a text has the size of the noise from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum HashScale {
+    /// From the pipeline: it is written into the text.
+    #[default]
+    Written,
+    /// From a parameter of the function.
+    Parameter,
+}
+
+impl<P: Into<Pipeline>> From<P> for ShaderOptions {
+    fn from(pipeline: P) -> Self {
+        Self { pipeline: pipeline.into(), hash_scale: HashScale::Written }
+    }
 }
 
 impl ShaderOptions {
-    /// The paper's threshold to the letter, as [`HashedAlpha::listing`](crate::threshold::hashed::HashedAlpha::listing).
-    #[must_use]
-    pub const fn listing(variant: Variant) -> Self {
-        Self {
-            variant,
-            hash: HashKind::Sine,
-            hash_scale: Some(1.0),
-            source: Source::Listing(CdfForm::Literal),
-            stratify: None,
-            coverage: None,
-            fade_in: None,
-        }
-    }
-
-    /// The threshold with every repair, as [`Robust::new`](crate::threshold::robust::Robust::new).
-    #[must_use]
-    pub const fn robust(variant: Variant) -> Self {
-        let join = if matches!(variant, Variant::Anisotropic) { Join::Copula } else { Join::Interpolate };
-        Self { hash: HashKind::Mm4, source: Source::Robust(join), ..Self::listing(variant) }
-    }
-
     /// Returns the parameters of the function `threshold`, in their order.
     #[must_use]
     pub fn parameters(&self) -> Vec<Parameter> {
-        let footprint = matches!(self.source, Source::Listing(_) | Source::Robust(_));
-        let permuted = self.coverage.is_some_and(|coverage| coverage.strata != Strata::InOrder);
-        let fresh = self.source == Source::Stochastic || permuted;
-        let changes = self.source == Source::Stochastic || self.stratify.is_some();
-        let by_pixel =
-            matches!(self.source, Source::ScreenDoor(_) | Source::PixelMask(_) | Source::Stipple(_));
-        let random_door = self.source == Source::ScreenDoor(ScreenDoor::Randomised);
-        let sampled =
-            self.coverage.is_some() || matches!(self.source, Source::Regular(_) | Source::PixelMask(_));
-        let anisotropy = self.fade_in.is_some_and(|fade_in| fade_in.anisotropy);
+        let reads = self.pipeline.reads();
+        let drawn = reads.random;
         let all = [
-            (footprint, POSITION),
-            (footprint, DPDX),
-            (footprint, DPDY),
-            (footprint && self.hash_scale.is_none(), HASH_SCALE),
-            (fresh || by_pixel, PIXEL),
-            (changes, FRAME),
-            (fresh || random_door, LAYER),
-            (sampled, SAMPLE_INDEX),
-            (self.fade_in.is_some(), LOD),
-            (anisotropy, TEXEL_DX),
-            (anisotropy, TEXEL_DY),
+            (reads.footprint, POSITION),
+            (reads.footprint, DPDX),
+            (reads.footprint, DPDY),
+            (reads.footprint && self.hash_scale == HashScale::Parameter, HASH_SCALE),
+            (reads.pixel || drawn, PIXEL),
+            (reads.frame || drawn, FRAME),
+            (reads.layer || drawn, LAYER),
+            (self.pipeline.sample_strata.is_some(), SAMPLE_INDEX),
+            (reads.lod, LOD),
+            (reads.texel, TEXEL_DX),
+            (reads.texel, TEXEL_DY),
         ];
         all.into_iter().filter(|&(is_read, _)| is_read).map(|(_, parameter)| parameter).collect()
     }
@@ -201,34 +111,55 @@ parameters! {
     TEXEL_DY = "texel_dy": "f32", "length of the texture coordinate's change along screen y, texels per pixel";
 }
 
-/// An option that cannot be written as shader text.
+/// A pipeline that cannot be written as shader text.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("{what} is {value}; a finite number above 0 is needed")]
-pub struct InvalidOption {
-    /// Which one.
-    pub what: &'static str,
-    /// Its value.
-    pub value: f32,
+#[non_exhaustive]
+pub enum AssembleError {
+    /// A number without a meaning.
+    #[error("{what} is {value}; a finite number above 0 is needed")]
+    Number {
+        /// Which one.
+        what: &'static str,
+        /// Its value.
+        value: f32,
+    },
+    /// Something that no shader computes, or none of these texts.
+    #[error("no shader text has {0}")]
+    NoText(&'static str),
 }
 
 /// Returns WGSL text that ends in `fn threshold(...) -> f32` with the parameters of [`ShaderOptions::parameters`].
 ///
 /// # Errors
 ///
-/// [`InvalidOption`] for a `hash_scale` or `full_noise_lod` that is not a finite number above 0.
-pub fn assemble(options: &ShaderOptions) -> Result<String, InvalidOption> {
-    positive("the hash scale", options.hash_scale)?;
-    positive("the level of full noise", options.fade_in.map(|fade_in| fade_in.full_noise_lod))?;
+/// [`AssembleError`]: a hash scale or level of full noise that is not a finite number above 0 in `f32`; thresholds of the
+/// caller, samples of the hardware, independent frames and draws, robust thresholds without all repairs, and other authored
+/// thresholds than 1/2, of which there is no text.
+pub fn assemble(options: impl Into<ShaderOptions>) -> Result<String, AssembleError> {
+    let options = options.into();
     let mut text = Text::default();
-    let stages = text.stages(options);
+    let stages = text.stages(&options)?;
     text.finish(&options.parameters(), &stages);
     Ok(text.written)
 }
 
-fn positive(what: &'static str, value: Option<f32>) -> Result<(), InvalidOption> {
-    match value {
-        Some(value) if !(value.is_finite() && value > 0.0) => Err(InvalidOption { what, value }),
-        _ => Ok(()),
+fn positive(what: &'static str, value: f32) -> Result<f32, AssembleError> {
+    if value.is_finite() && value > 0.0 { Ok(value) } else { Err(AssembleError::Number { what, value }) }
+}
+
+/// Only the traditional threshold is in the text.
+fn traditional(what: &'static str, threshold: f32) -> Result<(), AssembleError> {
+    let is_half = (f64::from(threshold) - FIXED_THRESHOLD).abs() < f64::EPSILON;
+    if is_half { Ok(()) } else { Err(AssembleError::NoText(what)) }
+}
+
+/// Whether the last clamp changes anything of a source that nothing follows.
+fn can_be_zero(source: Source) -> bool {
+    match source {
+        Source::Stochastic => true,
+        Source::Hash(Model::Hashed(hashed)) => matches!(hashed.variant, Variant::Linear | Variant::Single),
+        Source::Hash(Model::BeforeCdf(_) | Model::Robust(_)) | Source::Fixed(_) | Source::Given => false,
+        Source::ScreenDoor(_) | Source::Stipple { .. } => false,
     }
 }
 
@@ -258,45 +189,25 @@ impl Text {
     }
 
     /// Adds the chunks of every stage and returns the expression of each; `value` is that of the one before.
-    fn stages(&mut self, options: &ShaderOptions) -> Vec<String> {
-        let literal = options.source == Source::Listing(CdfForm::Literal);
-        let mut stages = vec![self.source(options)];
-        if options.source == Source::Listing(CdfForm::Stable)
-            && matches!(options.variant, Variant::Linear | Variant::Single)
-        {
-            stages.push("clamp(value, 1.0e-6, 1.0)".to_owned());
-        }
-        if let Some(Stratify { frames, order }) = options.stratify {
-            stages.push(self.stratified(literal, order, frames));
-        }
-        if let Some(Coverage { samples, strata }) = options.coverage {
-            self.stable_or_literal(literal, JITTERED);
-            // Hashed thresholds stay from frame to frame, or repeat after some, and so must the strata of their samples.
-            let frame = match options.stratify {
-                Some(Stratify { frames, .. }) if options.source != Source::Stochastic => {
-                    format!("frame % {frames}u")
-                }
-                _ if options.parameters().contains(&FRAME) => "frame".to_owned(),
-                _ => "0u".to_owned(),
-            };
-            if strata != Strata::InOrder {
-                add!(self, "integral_word", "pcg_4d", "fragment_words");
+    fn stages(&mut self, options: &ShaderOptions) -> Result<Vec<String>, AssembleError> {
+        let pipeline = &options.pipeline;
+        let literal = pipeline.form == CdfForm::Literal;
+        let mut stages = Vec::new();
+        if pipeline.uses_source() {
+            self.source(options, &mut stages)?;
+            if pipeline.independence.is_some() {
+                return Err(AssembleError::NoText("hashes of their own for frames"));
             }
-            let sample = match strata {
-                Strata::InOrder => "sample_index".to_owned(),
-                Strata::Decorrelated => {
-                    add!(self, "open_lattice", "fragment_pair");
-                    self.stable_or_literal(literal, DECORRELATED);
-                    format!("decorrelated(fragment_pair(pixel, {frame}, layer), sample_index, {samples}u)")
-                }
-                Strata::Shuffled => {
-                    add!(self, "pcg", "mask/shuffled");
-                    format!("shuffled(fragment_words(pixel, {frame}, layer).w, sample_index, {samples}u)")
-                }
-            };
-            stages.push(format!("jittered(value, {sample}, {samples}u)"));
+            if let Some(strata) = pipeline.frame_strata {
+                stages.push(self.stratified(literal, strata));
+            }
         }
-        if let Some(FadeIn { full_noise_lod, anisotropy }) = options.fade_in {
+        if let Some(strata) = pipeline.sample_strata {
+            stages.push(self.sampled(literal, strata, options)?);
+        }
+        if let Some(FadeIn { authored, full_noise_lod, anisotropy }) = pipeline.fade_in {
+            let full_noise_lod = positive("the level of full noise", full_noise_lod)?;
+            traditional("noise that fades in from another threshold than 1/2", authored)?;
             if !literal {
                 add!(self, "finite");
             }
@@ -308,11 +219,11 @@ impl Text {
             }
             stages.push(format!("fade_in(value, blend({lod}, {full_noise_lod:?}f))"));
         }
-        stages
+        Ok(stages)
     }
 
     /// Adds the chunks of an order of strata and returns the expression of its threshold.
-    fn stratified(&mut self, literal: bool, order: Order, n: NonZeroU16) -> String {
+    fn stratified(&mut self, literal: bool, FrameStrata { frames: n, order }: FrameStrata) -> String {
         if order == Order::VanDerCorputLiteral {
             add!(
                 self,
@@ -348,6 +259,51 @@ impl Text {
         format!("{}(value, {stratum}, {n}u)", if is_rotated { "rotated" } else { "stratified" })
     }
 
+    /// Adds the chunks of the samples' strata and returns the expression of their threshold.
+    fn sampled(
+        &mut self,
+        literal: bool,
+        SampleStrata { samples: n, pattern }: SampleStrata,
+        options: &ShaderOptions,
+    ) -> Result<String, AssembleError> {
+        // Hashed thresholds stay from frame to frame, or repeat after some, and so must the strata of their samples.
+        let frame = match options.pipeline.cycle() {
+            None => "frame".to_owned(),
+            Some(1) => "0u".to_owned(),
+            Some(frames) => format!("frame % {frames}u"),
+        };
+        let sample = match pattern {
+            SamplePattern::Regular => {
+                add!(self, "coverage_regular");
+                return Ok(format!("regular(sample_index, {n}u)"));
+            }
+            SamplePattern::ByPixel => {
+                add!(self, "clamp_last", "rotate", "murmur", "murmur_words", "open_lattice", "mask/pixel");
+                return Ok(format!("turned(pixel_value(vec2<u32>(pixel)), sample_index, {n}u)"));
+            }
+            SamplePattern::Hardware => return Err(AssembleError::NoText("the samples of the hardware")),
+            SamplePattern::Independent => {
+                return Err(AssembleError::NoText("independent draws at every sample"));
+            }
+            SamplePattern::Jittered => {
+                self.stable_or_literal(literal, JITTERED);
+                "sample_index".to_owned()
+            }
+            SamplePattern::Decorrelated => {
+                self.stable_or_literal(literal, JITTERED);
+                add!(self, "integral_word", "pcg_4d", "fragment_words", "open_lattice", "fragment_pair");
+                self.stable_or_literal(literal, DECORRELATED);
+                format!("decorrelated(fragment_pair(pixel, {frame}, layer), sample_index, {n}u)")
+            }
+            SamplePattern::Shuffled => {
+                self.stable_or_literal(literal, JITTERED);
+                add!(self, "integral_word", "pcg_4d", "fragment_words", "pcg", "mask/shuffled");
+                format!("shuffled(fragment_words(pixel, {frame}, layer).w, sample_index, {n}u)")
+            }
+        };
+        Ok(format!("jittered(value, {sample}, {n}u)"))
+    }
+
     fn stable_or_literal(&mut self, literal: bool, [stable_form, literal_form]: [&'static str; 2]) {
         if !literal && stable_form.contains("clamp_last(") {
             add!(self, "clamp_last");
@@ -355,27 +311,39 @@ impl Text {
         self.add(&[if literal { literal_form } else { stable_form }]);
     }
 
-    /// Adds the chunks of the source and returns its expression.
-    fn source(&mut self, options: &ShaderOptions) -> String {
-        let scale = options.hash_scale.map_or_else(|| "hash_scale".to_owned(), |scale| format!("{scale:?}f"));
-        match options.source {
-            Source::Listing(form) => {
-                self.listing(options.variant, options.hash, form);
+    /// Adds the chunks of the source and its expressions.
+    fn source(&mut self, options: &ShaderOptions, stages: &mut Vec<String>) -> Result<(), AssembleError> {
+        let scale = |scale: f64| {
+            let scale = positive("the hash scale", scale as f32)?;
+            let is_written = options.hash_scale == HashScale::Written;
+            Ok(if is_written { format!("{scale:?}f") } else { "hash_scale".to_owned() })
+        };
+        stages.push(match options.pipeline.source {
+            Source::Hash(Model::Hashed(HashedAlpha { variant, hash, hash_scale, form })) => {
+                let scale = scale(hash_scale)?;
+                self.listing(variant, hash, form);
                 format!("hashed(position, dpdx, dpdy, {scale})")
             }
-            Source::Robust(join) => {
-                self.robust(options.variant == Variant::Anisotropic, options.hash, join);
+            Source::Hash(Model::Robust(Robust { variant, hash, hash_scale, join, repairs })) => {
+                let scale = scale(hash_scale)?;
+                if repairs != Repairs::ALL {
+                    return Err(AssembleError::NoText("a robust threshold without a repair"));
+                }
+                self.robust(variant == Variant::Anisotropic, hash, join);
                 format!("robust(position, dpdx, dpdy, {scale})")
+            }
+            Source::Hash(Model::BeforeCdf(_)) => {
+                return Err(AssembleError::NoText("the mixture of two hashes before Eq. 2"));
             }
             Source::Stochastic => {
                 add!(self, "integral_word", "pcg_4d", "fragment_words", "stochastic");
                 "stochastic(fragment_words(pixel, frame, layer).x)".to_owned()
             }
-            Source::Fixed => "0.5".to_owned(),
-            Source::Regular(samples) => {
-                add!(self, "coverage_regular");
-                format!("regular(sample_index, {samples}u)")
+            Source::Fixed(threshold) => {
+                traditional("another fixed threshold than 1/2", threshold)?;
+                "0.5".to_owned()
             }
+            Source::Given => return Err(AssembleError::NoText("a threshold of the caller")),
             Source::ScreenDoor(ScreenDoor::Fixed) => {
                 add!(self, "coverage_regular", "screen_door/ordered");
                 "regular(ordered(vec2<u32>(pixel)), 16u)".to_owned()
@@ -389,16 +357,27 @@ impl Text {
                 add!(self, "murmur_words", "open_lattice", "screen_door/ordered", "screen_door/randomised");
                 "randomised(vec2<u32>(pixel), layer)".to_owned()
             }
-            Source::PixelMask(samples) => {
-                add!(self, "clamp_last", "rotate", "murmur", "murmur_words", "open_lattice", "mask/pixel");
-                format!("turned(pixel_value(vec2<u32>(pixel)), sample_index, {samples}u)")
-            }
-            Source::Stipple(density) => {
+            Source::Stipple { density, kept } => {
+                traditional("a stipple of another threshold than 1/2", kept)?;
                 add!(self, "stipple");
-                let [kept, apart] = if density == Density::High { ["0.5", "1.0"] } else { ["1.0", "0.5"] };
+                let [kept, apart] = match density {
+                    Density::High => ["0.5", "1.0"],
+                    Density::Low => ["1.0", "0.5"],
+                };
                 format!("select({kept}, {apart}, is_apart(vec2<u32>(pixel)))")
             }
+        });
+        let Pipeline { source, .. } = options.pipeline;
+        if let Source::Hash(Model::Hashed(hashed)) = source
+            && matches!(hashed.variant, Variant::Linear | Variant::Single)
+            && hashed.form == CdfForm::Stable
+        {
+            stages.push("clamp(value, 1.0e-6, 1.0)".to_owned());
+        } else if options.pipeline.clamps() && can_be_zero(source) {
+            add!(self, "clamp_last");
+            stages.push("clamp_last(value)".to_owned());
         }
+        Ok(())
     }
 
     fn listing(&mut self, variant: Variant, hash: HashKind, form: CdfForm) {

@@ -4,12 +4,14 @@
 //! that calls it. naga translates the WGSL of [`super::assemble`]; the name `threshold` and those of its parameters
 //! survive in every language.
 
-use super::assemble::{
-    Coverage, FadeIn, InvalidOption, ScreenDoor, ShaderOptions, Source, Strata, Stratify, assemble,
+use super::assemble::{AssembleError, HashScale, ShaderOptions, assemble};
+use crate::threshold::hash::{HashKind, UnknownName, by_name};
+use crate::threshold::hashed::HashedAlpha;
+use crate::threshold::model::Model;
+use crate::threshold::pipeline::{
+    FadeIn, FrameStrata, Pipeline, SamplePattern, SampleStrata, ScreenDoor, Source,
 };
-use crate::threshold::hash::{UnknownName, by_name};
 use crate::threshold::robust::Robust;
-use crate::threshold::stage::stipple::Density;
 use crate::threshold::two_scale::Variant;
 use core::fmt;
 use core::str::FromStr;
@@ -73,9 +75,9 @@ impl FromStr for Language {
 /// Options that cannot be said in a language.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ExportError {
-    /// An option has no meaning in any.
+    /// There is no text in any.
     #[error(transparent)]
-    Option(#[from] InvalidOption),
+    Pipeline(#[from] AssembleError),
     /// naga cannot write it.
     #[error("{language} cannot say this: {message}")]
     Language {
@@ -86,19 +88,39 @@ pub enum ExportError {
     },
 }
 
-/// Returns the content of a file in `language` that declares the function `threshold`.
+/// A shader file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Exported {
+    /// Of the languages that are text.
+    Text(String),
+    /// Of SPIR-V: a module, word by word.
+    Words(Vec<u32>),
+}
+
+impl Exported {
+    /// Returns the content of the file: UTF-8, or little-endian words.
+    #[must_use]
+    pub fn into_bytes(self) -> Vec<u8> {
+        match self {
+            Self::Text(text) => text.into_bytes(),
+            Self::Words(words) => words.into_iter().flat_map(u32::to_le_bytes).collect(),
+        }
+    }
+}
+
+/// Returns a file in `language` that declares the function `threshold`.
 ///
-/// UTF-8 text that begins with comments on what it is and how it is called; little-endian words for SPIR-V. GLSL begins
-/// with its `#version` line.
+/// Text begins with comments on what it is and how it is called; GLSL begins with its `#version` line.
 ///
 /// # Errors
 ///
-/// [`ExportError`]: options without a meaning, or without one in this language.
-pub fn export(options: &ShaderOptions, language: Language) -> Result<Vec<u8>, ExportError> {
-    let wgsl = assemble(options)?;
+/// [`ExportError`]: a pipeline without a text, or without one in this language.
+pub fn export(options: impl Into<ShaderOptions>, language: Language) -> Result<Exported, ExportError> {
+    let options = &options.into();
+    let wgsl = assemble(*options)?;
     let fail = |message: String| ExportError::Language { language, message };
     if language == Language::Wgsl {
-        return Ok(format!("{}\n{wgsl}", header(options, language)).into_bytes());
+        return Ok(Exported::Text(format!("{}\n{wgsl}", header(options, language))));
     }
     let mut module = naga::front::wgsl::parse_str(&wgsl).map_err(|error| fail(error.to_string()))?;
     keep_parameter_names(&mut module, options);
@@ -111,7 +133,7 @@ pub fn export(options: &ShaderOptions, language: Language) -> Result<Vec<u8>, Ex
     let text = match language {
         Language::Wgsl | Language::SpirV => {
             let words = spir_v(&module, &info).map_err(|error| fail(error.to_string()))?;
-            return Ok(words.into_iter().flat_map(u32::to_le_bytes).collect());
+            return Ok(Exported::Words(words));
         }
         Language::Glsl => to_glsl(&module, &info, glsl::Version::Desktop(450)).map_err(fail)?,
         Language::GlslEs => {
@@ -132,7 +154,7 @@ pub fn export(options: &ShaderOptions, language: Language) -> Result<Vec<u8>, Ex
         Some((version, rest)) if version.starts_with("#version") => format!("{version}\n{header}{rest}"),
         _ => format!("{header}\n{text}"),
     };
-    Ok(text.into_bytes())
+    Ok(Exported::Text(text))
 }
 
 /// naga writes each name once in a module and numbers the others; the names of the function that is called go first.
@@ -219,27 +241,29 @@ fn header(options: &ShaderOptions, language: Language) -> String {
 
 /// How the exported file is put on trial; nothing where more follows the threshold.
 fn on_trial(options: &ShaderOptions) -> Option<String> {
-    let &ShaderOptions { variant, source, hash_scale, coverage: None, fade_in: None, stratify: None, .. } =
-        options
+    let Pipeline {
+        source: Source::Hash(model), sample_strata: None, fade_in: None, frame_strata: None, ..
+    } = options.pipeline
     else {
         return None;
     };
     let mut asked = String::new();
+    let (variant, hash_scale) = match model {
+        Model::Hashed(HashedAlpha { variant, hash_scale, .. }) => (variant, hash_scale),
+        Model::Robust(Robust { variant, hash_scale, .. }) => (variant, hash_scale),
+        Model::BeforeCdf(_) => return None,
+    };
     if variant != Variant::Isotropic {
         asked += &format!(" --variant {variant}");
     }
-    match source {
-        Source::Listing(_) => {}
-        Source::Robust(join) => {
-            asked += " --nested-phase";
-            if join != Robust::new(variant).join {
-                asked += &format!(" --join {join}");
-            }
+    if let Model::Robust(Robust { join, .. }) = model {
+        asked += " --nested-phase";
+        if join != Robust::new(variant).join {
+            asked += &format!(" --join {join}");
         }
-        _ => return None,
     }
-    if let Some(scale) = hash_scale.filter(|&scale| scale != 1.0) {
-        asked += &format!(" --hash-scale {scale}");
+    if options.hash_scale == HashScale::Written && hash_scale as f32 != 1.0 {
+        asked += &format!(" --hash-scale {}", hash_scale as f32);
     }
     Some(format!("Verify it: hashed-alpha check FILE{asked}"))
 }
@@ -249,62 +273,70 @@ fn call(options: &ShaderOptions) -> String {
     format!("threshold({})", names.join(", "))
 }
 
-/// The options in words, each with its place in the paper.
+/// The pipeline in words, each with its place in the paper.
 fn described(options: &ShaderOptions) -> Vec<String> {
     let mut parts = Vec::new();
-    match options.source {
-        Source::Listing(form) => {
-            parts.push(match options.variant {
-                Variant::Isotropic => "Listing 1".to_owned(),
-                Variant::Anisotropic => "Listing 2".to_owned(),
-                Variant::Linear => "linear scales (section 5.4.2)".to_owned(),
-                Variant::Single => "a single scale (section 5.4.1)".to_owned(),
-            });
-            parts.push(format!("{form} form"));
-        }
-        Source::Robust(join) => {
-            let listing = if options.variant == Variant::Anisotropic { 2 } else { 1 };
-            parts.push(format!("Listing {listing} with every repair (not in the paper)"));
-            parts.push(format!("join {join}"));
-        }
-        Source::Stochastic => parts.push("stochastic alpha testing (section 4)".to_owned()),
-        Source::Fixed => parts.push("the traditional alpha test (section 1)".to_owned()),
-        Source::Regular(samples) => parts.push(format!("the fixed dither of {samples} samples (Eq. 7)")),
-        Source::ScreenDoor(ScreenDoor::Fixed) => parts.push("the ordered dither of 4 x 4 pixels".to_owned()),
-        Source::ScreenDoor(ScreenDoor::RandomMask(seed)) => {
-            parts.push(format!("a random mask of 4 x 4 pixels (section 3, seed {seed})"));
-        }
-        Source::PixelMask(samples) => {
-            parts.push(format!("{samples} samples by a value of the pixel (Humus 2009)"));
-        }
-        Source::Stipple(density) => {
-            let density = if density == Density::High { "high" } else { "low" };
-            parts.push(format!("the traditional alpha test with a stipple of {density} density (Ols 2009)"));
-        }
-        Source::ScreenDoor(ScreenDoor::Randomised) => {
-            parts.push("strata over tiles of 4 x 4 pixels (section 8.1)".to_owned());
-        }
+    let Pipeline { source, frame_strata, sample_strata, fade_in, .. } = options.pipeline;
+    if options.pipeline.uses_source() {
+        parts.extend(described_source(source, options.hash_scale));
     }
-    if matches!(options.source, Source::Listing(_) | Source::Robust(_)) {
-        parts.push(format!("hash {}", options.hash));
-        parts.extend(options.hash_scale.map(|scale| format!("noise of {scale} pixels")));
-    }
-    if let Some(Stratify { frames, order }) = options.stratify {
+    if let Some(FrameStrata { frames, order }) = frame_strata {
         parts.push(format!("stratified over {frames} frames, order {} (Eq. 6)", order.name()));
     }
-    if let Some(Coverage { samples, strata }) = options.coverage {
-        let equation = match strata {
-            Strata::InOrder => "Eq. 8",
-            Strata::Decorrelated => "Eqs. 8 and 9",
-            Strata::Shuffled => "Eq. 8, shuffled",
-        };
-        parts.push(format!("jittered over {samples} samples ({equation})"));
+    if let Some(SampleStrata { samples, pattern }) = sample_strata {
+        parts.push(match pattern {
+            SamplePattern::Regular => format!("the fixed dither of {samples} samples (Eq. 7)"),
+            SamplePattern::ByPixel => format!("{samples} samples by a value of the pixel (Humus 2009)"),
+            SamplePattern::Jittered => format!("jittered over {samples} samples (Eq. 8)"),
+            SamplePattern::Decorrelated => format!("jittered over {samples} samples (Eqs. 8 and 9)"),
+            SamplePattern::Shuffled => format!("jittered over {samples} samples (Eq. 8, shuffled)"),
+            // Of these there is no text.
+            SamplePattern::Hardware | SamplePattern::Independent => pattern.name().to_owned(),
+        });
     }
-    if let Some(FadeIn { full_noise_lod, anisotropy }) = options.fade_in {
+    if let Some(FadeIn { full_noise_lod, anisotropy, .. }) = fade_in {
         let anisotropy = if anisotropy { ", with anisotropy (section 7.1.1)" } else { "" };
         parts.push(format!("faded in up to level {full_noise_lod} (Eqs. 4 and 5{anisotropy})"));
     }
     parts
+}
+
+fn described_source(source: Source, scale: HashScale) -> Vec<String> {
+    let hashed = |listing: [String; 2], hash: HashKind, hash_scale: f64| {
+        let size = (scale == HashScale::Written).then(|| format!("noise of {} pixels", hash_scale as f32));
+        listing.into_iter().chain([format!("hash {hash}")]).chain(size).collect()
+    };
+    vec![match source {
+        Source::Hash(Model::Hashed(HashedAlpha { variant, hash, hash_scale, form })) => {
+            let listing = match variant {
+                Variant::Isotropic => "Listing 1",
+                Variant::Anisotropic => "Listing 2",
+                Variant::Linear => "linear scales (section 5.4.2)",
+                Variant::Single => "a single scale (section 5.4.1)",
+            };
+            return hashed([listing.to_owned(), format!("{form} form")], hash, hash_scale);
+        }
+        Source::Hash(Model::Robust(Robust { variant, hash, hash_scale, join, .. })) => {
+            let listing = if variant == Variant::Anisotropic { 2 } else { 1 };
+            let repaired = format!("Listing {listing} with every repair (not in the paper)");
+            return hashed([repaired, format!("join {join}")], hash, hash_scale);
+        }
+        Source::Stochastic => "stochastic alpha testing (section 4)".to_owned(),
+        Source::Fixed(_) => "the traditional alpha test (section 1)".to_owned(),
+        Source::ScreenDoor(ScreenDoor::Fixed) => "the ordered dither of 4 x 4 pixels".to_owned(),
+        Source::ScreenDoor(ScreenDoor::RandomMask(seed)) => {
+            format!("a random mask of 4 x 4 pixels (section 3, seed {seed})")
+        }
+        Source::ScreenDoor(ScreenDoor::Randomised) => {
+            "strata over tiles of 4 x 4 pixels (section 8.1)".to_owned()
+        }
+        Source::Stipple { density, .. } => {
+            let density = density.name();
+            format!("the traditional alpha test with a stipple of {density} density (Ols 2009)")
+        }
+        // Of these there is no text.
+        Source::Hash(Model::BeforeCdf(_)) | Source::Given => String::new(),
+    }]
 }
 
 #[cfg(test)]
@@ -321,14 +353,14 @@ mod tests {
 
     #[test]
     fn text_says_what_it_is_and_spir_v_has_its_magic_number() {
-        let options = ShaderOptions::robust(Variant::Anisotropic);
         for language in Language::ALL {
-            let bytes = export(&options, language).unwrap();
-            if language == Language::SpirV {
-                assert_eq!(bytes[..4], 0x0723_0203_u32.to_le_bytes());
-                continue;
-            }
-            let text = String::from_utf8(bytes).unwrap();
+            let text = match export(Pipeline::robust(Variant::Anisotropic), language).unwrap() {
+                Exported::Text(text) => text,
+                Exported::Words(words) => {
+                    assert_eq!((language, words[0]), (Language::SpirV, 0x0723_0203));
+                    continue;
+                }
+            };
             assert!(
                 text.contains("Listing 2 with every repair (not in the paper), join copula, hash mm4"),
                 "{text}"

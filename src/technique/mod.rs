@@ -216,7 +216,7 @@ pub const ALL: &[Technique] = &[
     technique(
         "blend-towards",
         "not in the paper",
-        "threshold::stage::blend_towards",
+        "threshold::stage::fade_in",
         "Noise fades in from a threshold of the artist's.",
     )
     .seen("fade-in", "faded in from 0.25", "fade_in")
@@ -315,7 +315,7 @@ pub const ALL: &[Technique] = &[
     technique(
         "alpha-to-coverage",
         "§8, Eq. 7",
-        "threshold::stage::mask",
+        "threshold::stage::coverage",
         "n regular tests in a pixel; layers of equal alpha cover the same samples.",
     )
     .seen("vanishing-foliage", "alpha to coverage", "alpha_to_coverage")
@@ -323,7 +323,7 @@ pub const ALL: &[Technique] = &[
     technique(
         "hardware-alpha-to-coverage",
         "§3, §8",
-        "threshold::stage::mask",
+        "threshold::stage::coverage",
         "floor(n alpha) samples in a fixed pattern.",
     )
     .seen("multisample", "as hardware", "alpha_to_coverage")
@@ -331,7 +331,7 @@ pub const ALL: &[Technique] = &[
     technique(
         "jittered-alpha-to-coverage",
         "§8, Eq. 8",
-        "threshold::stage::mask",
+        "threshold::stage::coverage",
         "Thresholds jittered within their strata; layers still share samples.",
     )
     .seen("checkerboard", "isotropic to coverage", "alpha_to_coverage")
@@ -339,7 +339,7 @@ pub const ALL: &[Technique] = &[
     technique(
         "permuted-alpha-to-coverage",
         "§8, Eq. 9",
-        "threshold::stage::mask",
+        "threshold::stage::coverage",
         "Strata permuted for each fragment; layers multiply.",
     )
     .seen("vanishing-foliage", "hashed to coverage", "alpha_to_coverage")
@@ -347,7 +347,7 @@ pub const ALL: &[Technique] = &[
     technique(
         "random-masks",
         "§3 (Enderton et al. 2010)",
-        "threshold::stage::mask",
+        "threshold::stage::coverage",
         "Random sets of samples; layers multiply.",
     )
     .seen("layers", "hashed, random", "alpha_to_coverage")
@@ -355,7 +355,7 @@ pub const ALL: &[Technique] = &[
     technique(
         "pixel-masks",
         "Humus 2009",
-        "threshold::stage::mask",
+        "threshold::stage::coverage",
         "A pseudo-random value of the pixel breaks up the repetitive dither of hardware.",
     )
     .seen("pixel-masks", "by pixel", "alpha_to_coverage")

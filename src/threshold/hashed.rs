@@ -59,7 +59,21 @@ impl HashedAlpha<Sine> {
     }
 }
 
+impl Default for HashedAlpha {
+    /// Listing 1 to the letter.
+    fn default() -> Self {
+        HashedAlpha::listing(Variant::Isotropic).with_hash(HashKind::Sine)
+    }
+}
+
 impl<H> HashedAlpha<H> {
+    /// The same with another hash in place of its own.
+    #[must_use]
+    pub fn with_hash<G>(self, hash: G) -> HashedAlpha<G> {
+        let Self { variant, hash: _, hash_scale, form } = self;
+        HashedAlpha { variant, hash, hash_scale, form }
+    }
+
     /// Returns the threshold of a footprint.
     ///
     /// In [1e-6, 1]; NaN where the listing gives NaN (a derivative of zero along an axis of Listing 2, derivatives

@@ -9,7 +9,9 @@
 //! | [`two_scale`] | §5.4.1, §5.4.2, Listings 1 and 2 up to `lerpFactor` |
 //! | [`cdf`] | Eq. 2 |
 //! | [`hashed`], [`stochastic`], [`fixed`] | where the threshold comes from: §5-6, §4, §1 |
+//! | [`model`] | any of those of which the hash has a name |
 //! | [`robust`] | Listings 1 and 2 with every repair (not in the paper); [`normal`] serves its copula join |
+//! | [`pipeline`] | a source and the stages after it, as one description |
 //! | [`stage`] | what follows the hash: §7.1, §7.2.2, §7.2.3, §8 |
 //! | [`batch`] | the same thresholds by the thousand, in the vector instructions of the machine (not in the paper) |
 //! | [`stability`] | closed forms for how often a threshold changes under motion (not in the paper) |
@@ -23,8 +25,10 @@ pub mod fixed;
 pub mod footprint;
 pub mod hash;
 pub mod hashed;
+pub mod model;
 pub mod names;
 pub mod normal;
+pub mod pipeline;
 pub mod real;
 pub mod robust;
 pub mod stability;

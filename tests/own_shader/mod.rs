@@ -1,14 +1,12 @@
 //! A user's own shader: what is taken, what is refused and with which words, and that nothing makes the reader panic.
 
 use hashed_alpha::scene::fragment::Fragment;
-use hashed_alpha::shader::assemble::ShaderOptions;
 use hashed_alpha::shader::export::{self, export};
 use hashed_alpha::shader::interpreter::DeviceModel;
 use hashed_alpha::shader::own::{
     Input, LARGEST_FILE, Language, Options, OwnShader, Place, Value, parse, read,
 };
 use hashed_alpha::threshold::footprint::Footprint;
-use hashed_alpha::threshold::two_scale::Variant;
 use proptest::prelude::*;
 use std::path::{Path, PathBuf};
 

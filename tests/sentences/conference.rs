@@ -6,8 +6,9 @@ use core::num::NonZeroU32;
 use hashed_alpha::stats::seed::rng;
 use hashed_alpha::technique::jitter::camera_jitter;
 use hashed_alpha::threshold::stage::fade_in::{blend_literal, fade_in_literal};
-use hashed_alpha::threshold::stochastic;
+use hashed_alpha::threshold::stochastic::stochastic;
 use hashed_alpha::threshold::two_scale::Variant::Isotropic;
+use rand::Rng;
 
 pub const ROWS: &[Row] = &[
     Row {
@@ -41,7 +42,7 @@ fn interval() -> Measured {
     let n = 1_u64 << 26;
     let (mut zeros, mut outside) = (0_u32, 0_u32);
     for _ in 0..n {
-        let draw = stochastic::threshold::<f32>(&mut rng);
+        let draw = stochastic::<f32>(rng.next_u32());
         zeros += u32::from(draw == 0.0);
         let reversed = 1.0 - draw;
         outside += u32::from(!(reversed > 0.0 && reversed <= 1.0));
@@ -82,7 +83,7 @@ fn delta() -> Measured {
     let plane = Plane::tilted(30.0, 0.0123, 0.0);
     let image = plane.image(512, listing(Isotropic, 1.0));
     let inside = share(image.iter().map(|t| t - 0.5 > -0.5 && t - 0.5 <= 0.5));
-    let same = share(image.iter().map(|&t| fade_in_literal(t as f32, 1.0) == t as f32));
+    let same = share(image.iter().map(|&t| fade_in_literal(0.5, t as f32, 1.0) == t as f32));
     let seen = format!(
         "{} of the thresholds of Listing 1 are; 0.5 + delta is the threshold again, bit for bit, in {}",
         percent(inside),

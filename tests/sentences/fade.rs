@@ -38,12 +38,12 @@ pub const ROWS: &[Row] = &[
 ];
 
 fn fade_ends() -> Measured {
-    let wrong = chis().filter(|&chi| fade_in(chi, 0.0) != 0.5 || fade_in(chi, 1.0) != chi).count();
+    let wrong = chis().filter(|&chi| fade_in(0.5, chi, 0.0) != 0.5 || fade_in(0.5, chi, 1.0) != chi).count();
     judge(CHIS, wrong == 0, false, format!("{wrong} of {CHIS} thresholds differ from either"))
 }
 
 fn fade_keeps() -> Measured {
-    let kept = |lod: f64| mean(chis().map(|chi| visible(0.3, fade_in(chi, blend(lod, 6.0)))));
+    let kept = |lod: f64| mean(chis().map(|chi| visible(0.3, fade_in(0.5, chi, blend(lod, 6.0)))));
     let lods = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0];
     let shares = lods.map(kept);
     let seen = format!(
@@ -63,7 +63,7 @@ fn quadratic() -> Measured {
 
 /// The share of alpha 0.3 that is kept at a level, with n = 6.
 fn kept_at(lod: f64) -> f64 {
-    mean(chis().map(|chi| visible(0.3, fade_in(chi, blend(lod, 6.0)))))
+    mean(chis().map(|chi| visible(0.3, fade_in(0.5, chi, blend(lod, 6.0)))))
 }
 
 fn grazing() -> Measured {

@@ -16,8 +16,9 @@ use hashed_alpha::threshold::hash::{Cell, Hash, HashKind};
 use hashed_alpha::threshold::real::Real;
 use hashed_alpha::threshold::robust::{Join, Robust};
 use hashed_alpha::threshold::stage::stratify::stratified_literal;
-use hashed_alpha::threshold::stochastic;
+use hashed_alpha::threshold::stochastic::stochastic;
 use hashed_alpha::threshold::two_scale::Variant::{self, Anisotropic, Isotropic};
+use rand::Rng;
 
 pub const ROWS: &[Row] = &[
     Row {
@@ -195,7 +196,7 @@ const ALPHAS: [f64; 9] = [0.05, 0.1, 0.2, 0.3, 0.5, 0.6, 0.75, 0.9, 0.95];
 fn expectation() -> Measured {
     let n = 1 << 16;
     let mut rng = seed::rng("claims.expectation", 0);
-    let random: Vec<f64> = (0..n).map(|_| stochastic::threshold(&mut rng)).collect();
+    let random: Vec<f64> = (0..n).map(|_| stochastic(rng.next_u32())).collect();
     // Five pixels apart, so that no two share a cell.
     let plane = Plane::tilted(35.0, 0.013, 0.0);
     let of = listing(Isotropic, 1.0);

@@ -22,20 +22,20 @@ use crate::threshold::footprint::Footprint;
 use crate::threshold::hash::{Hash, HashKind, integer::pcg4d, open_lattice};
 use crate::threshold::hashed::HashedAlpha;
 use crate::threshold::robust::Robust;
-use crate::threshold::stage::blend_towards::blend_towards;
 use crate::threshold::stage::clamp::clamp_last;
-use crate::threshold::stage::coverage::{decorrelated, jittered, regular};
-use crate::threshold::stage::fade_in::{anisotropy, blend};
+use crate::threshold::stage::coverage::{
+    decorrelated, hardware_threshold, jittered, pixel_value, regular, shuffled, turned,
+};
+use crate::threshold::stage::fade_in::{anisotropy, blend, fade_in};
 use crate::threshold::stage::independent::{ByFrame, by_offset};
-use crate::threshold::stage::mask::{hardware_threshold, pixel_value, shuffled, turned};
 use crate::threshold::stage::order::Order;
 use crate::threshold::stage::screen_door;
 use crate::threshold::stage::stipple::{self, Density};
-use crate::threshold::stochastic;
+use crate::threshold::stochastic::stochastic;
 use core::num::NonZeroU32;
 use glam::DVec2;
-use rand::SeedableRng;
 use rand::rngs::Xoshiro256PlusPlus;
+use rand::{Rng, SeedableRng};
 use rayon::prelude::*;
 
 /// Which of the 16! masks a random screen door has.
@@ -147,7 +147,7 @@ impl Draw<'_> {
                 }
                 Stage::Stochastic => {
                     work.threshold.clear();
-                    let draws = (0..work.fragments.len()).map(|_| stochastic::threshold::<f32>(&mut rng));
+                    let draws = (0..work.fragments.len()).map(|_| stochastic::<f32>(rng.next_u32()));
                     work.threshold.extend(draws);
                     result.cost.randoms += work.fragments.len() as u64;
                 }
@@ -288,7 +288,7 @@ impl Draw<'_> {
                 }
                 Pattern::Independent => {
                     out.push(chi);
-                    out.extend((1..sample.end).map(|_| stochastic::threshold::<f32>(rng)));
+                    out.extend((1..sample.end).map(|_| stochastic::<f32>(rng.next_u32())));
                     cost.randoms += u64::from(sample.end - 1);
                 }
             }
@@ -344,7 +344,7 @@ impl Draw<'_> {
             }
             let share = blend(lod, table.full_noise_lod);
             for threshold in &mut work.threshold[at * samples..(at + 1) * samples] {
-                *threshold = blend_towards(table.authored, *threshold, share);
+                *threshold = fade_in(table.authored, *threshold, share);
             }
         }
     }

@@ -3,79 +3,93 @@
 use super::frame::DOOR_SEED;
 use super::plan::Plan;
 use crate::render::effect::stage::Stage;
-use crate::render::effect::tables::{Door, FadeIn, Pattern};
-use crate::shader::assemble::{self, InvalidOption, ShaderOptions, assemble};
+use crate::render::effect::tables::{Apart, Door, FadeIn, Pattern};
+use crate::shader::assemble::{AssembleError, assemble};
 use crate::shader::beside;
-use crate::threshold::batch::Model;
-use crate::threshold::fixed::FIXED_THRESHOLD;
-use crate::threshold::two_scale::Variant;
-use core::num::NonZeroU32;
+use crate::threshold::cdf::CdfForm;
+use crate::threshold::model::Model;
+use crate::threshold::pipeline::{
+    self, FrameStrata, Independence, IndependentBy, Pipeline, SamplePattern, SampleStrata, ScreenDoor, Source,
+};
 
 impl Plan {
-    /// Returns the threshold of the plan as WGSL, made of the chunks of its stages only, and after it the functions that the
-    /// stages call beside it; `None` where no shader computes the threshold, as for independent draws at every sample or for
-    /// what hardware does by itself.
-    ///
-    /// # Errors
-    ///
-    /// [`InvalidOption`] for numbers that cannot be written as text.
-    pub fn shader(&self) -> Result<Option<String>, InvalidOption> {
-        let mut options =
-            ShaderOptions { source: assemble::Source::Fixed, ..ShaderOptions::listing(Variant::Isotropic) };
-        let short =
-            |n: &NonZeroU32| core::num::NonZeroU16::try_from(*n).unwrap_or(core::num::NonZeroU16::MAX);
+    /// Returns the source and the stages of the plan's thresholds.
+    #[must_use]
+    pub fn pipeline(&self) -> Pipeline {
+        let mut pipeline = Pipeline::from(Source::Fixed(0.5));
         for stage in &self.stages {
             match stage {
-                Stage::Fixed(threshold) if !is_traditional(*threshold) => return Ok(None),
-                Stage::Stochastic => options.source = assemble::Source::Stochastic,
-                Stage::Hash(Model::Hashed(hashed), _) => {
-                    options.source = assemble::Source::Listing(hashed.form);
-                    (options.variant, options.hash) = (hashed.variant, hashed.hash);
-                    options.hash_scale = Some(hashed.hash_scale as f32);
-                }
-                Stage::Hash(Model::BeforeCdf(_), _) => return Ok(None),
-                Stage::Hash(Model::Robust(robust), _) => {
-                    options.source = assemble::Source::Robust(robust.join);
-                    (options.variant, options.hash) = (robust.variant, robust.hash);
-                    options.hash_scale = Some(robust.hash_scale as f32);
-                }
-                Stage::Stratify(frames, order) => {
-                    options.stratify = Some(assemble::Stratify { frames: short(frames), order: *order });
-                }
+                Stage::Fixed(threshold) => pipeline.source = Source::Fixed(*threshold),
+                Stage::LevelThreshold => pipeline.source = Source::Given,
+                Stage::Stochastic => pipeline.source = Source::Stochastic,
+                Stage::Hash(model, _) => pipeline.source = Source::Hash(*model),
                 Stage::ScreenDoor(door) => {
-                    options.source = assemble::Source::ScreenDoor(match door {
-                        Door::Fixed => assemble::ScreenDoor::Fixed,
-                        Door::Random => assemble::ScreenDoor::RandomMask(DOOR_SEED),
-                        Door::Hashed => assemble::ScreenDoor::Randomised,
+                    pipeline.source = Source::ScreenDoor(match door {
+                        Door::Fixed => ScreenDoor::Fixed,
+                        Door::Random => ScreenDoor::RandomMask(DOOR_SEED),
+                        Door::Hashed => ScreenDoor::Randomised,
                     });
                 }
-                Stage::Stipple(density) => options.source = assemble::Source::Stipple(*density),
-                // Hardware does its own without a shader.
-                Stage::Coverage(_, Pattern::Independent | Pattern::Hardware) => return Ok(None),
-                Stage::Coverage(samples, Pattern::Regular) => {
-                    options.source = assemble::Source::Regular(short(samples));
+                Stage::Stipple(density) => {
+                    let Source::Fixed(kept) = pipeline.source else { continue };
+                    pipeline.source = Source::Stipple { density: *density, kept };
                 }
-                Stage::Coverage(samples, Pattern::Pixel) => {
-                    options.source = assemble::Source::PixelMask(short(samples));
+                Stage::Independent(frames, by) => {
+                    let by = match by {
+                        Apart::Offset => IndependentBy::Offset,
+                        Apart::Word => IndependentBy::Word,
+                    };
+                    pipeline.independence = Some(Independence { frames: *frames, by });
+                }
+                Stage::Stratify(frames, order) => {
+                    pipeline.frame_strata = Some(FrameStrata { frames: *frames, order: *order });
                 }
                 Stage::Coverage(samples, pattern) => {
-                    let strata = match pattern {
-                        Pattern::Decorrelated => assemble::Strata::Decorrelated,
-                        Pattern::Random => assemble::Strata::Shuffled,
-                        _ => assemble::Strata::InOrder,
+                    let pattern = match pattern {
+                        Pattern::Regular => SamplePattern::Regular,
+                        Pattern::Jittered => SamplePattern::Jittered,
+                        Pattern::Decorrelated => SamplePattern::Decorrelated,
+                        Pattern::Independent => SamplePattern::Independent,
+                        Pattern::Hardware => SamplePattern::Hardware,
+                        Pattern::Random => SamplePattern::Shuffled,
+                        Pattern::Pixel => SamplePattern::ByPixel,
                     };
-                    options.coverage = Some(assemble::Coverage { samples: short(samples), strata });
+                    pipeline.sample_strata = Some(SampleStrata { samples: *samples, pattern });
                 }
-                Stage::FadeIn(fade_in) if !is_traditional(fade_in.authored) => return Ok(None),
-                Stage::FadeIn(fade_in) => {
-                    let FadeIn { full_noise_lod, anisotropy, .. } = *fade_in;
-                    options.fade_in = Some(assemble::FadeIn { full_noise_lod, anisotropy });
+                Stage::FadeIn(FadeIn { full_noise_lod, anisotropy, authored }) => {
+                    pipeline.fade_in = Some(pipeline::FadeIn {
+                        authored: *authored,
+                        full_noise_lod: *full_noise_lod,
+                        anisotropy: *anisotropy,
+                    });
                 }
-                Stage::Independent(..) | Stage::LevelThreshold | Stage::BlendAll => return Ok(None),
                 _ => {}
             }
         }
-        let mut text = assemble(&options)?;
+        pipeline
+    }
+
+    /// Returns the threshold of the plan as WGSL, made of the chunks of its stages only, and after it the functions that the
+    /// stages call beside it; `None` where there is no such text, as for independent draws at every sample or for what
+    /// hardware does by itself. After a listing to the letter all is to the letter.
+    ///
+    /// # Errors
+    ///
+    /// [`AssembleError`] for numbers that cannot be written as text.
+    pub fn shader(&self) -> Result<Option<String>, AssembleError> {
+        if self.stages.contains(&Stage::BlendAll) {
+            return Ok(None);
+        }
+        let mut pipeline = self.pipeline();
+        if let Source::Hash(Model::Hashed(hashed)) = pipeline.source {
+            pipeline.form = hashed.form;
+        } else if pipeline.source == Source::Stochastic {
+            pipeline.form = CdfForm::Literal;
+        }
+        let mut text = match assemble(pipeline) {
+            Err(AssembleError::NoText(_)) => return Ok(None),
+            text => text?,
+        };
         for stage in &self.stages {
             match stage {
                 Stage::Foveate(_) => text.push_str(beside::COARSER_BY),
@@ -86,9 +100,4 @@ impl Plan {
         }
         Ok(Some(text))
     }
-}
-
-/// Whether shader text, which knows the traditional threshold only, can have this one.
-fn is_traditional(threshold: f32) -> bool {
-    (f64::from(threshold) - FIXED_THRESHOLD).abs() < f64::EPSILON
 }

@@ -154,14 +154,15 @@ pub fn parse(
     }
 }
 
-/// Makes the verified threshold of `options` ready to run, as if it came from a file; a noise size and a sample index
+/// Makes the assembled threshold of `options` ready to run, as if it came from a file; a noise size and a sample index
 /// that it asks for are 1 and 0.
 ///
 /// # Errors
 ///
 /// [`ShaderError`]: options without a meaning, or with a parameter that a fragment does not know (the lengths of the
 /// texture coordinate's derivatives).
-pub fn assembled(name: &str, options: &ShaderOptions) -> Result<OwnShader, ShaderError> {
+pub fn assembled(name: &str, options: impl Into<ShaderOptions>) -> Result<OwnShader, ShaderError> {
+    let options = options.into();
     let text = assemble(options).map_err(|error| ShaderError {
         file: name.to_owned(),
         place: None,

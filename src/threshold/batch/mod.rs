@@ -1,6 +1,6 @@
 //! Thresholds by the thousand, in the vector instructions of the machine.
 //!
-//! A second, faster way to the numbers that [`HashedAlpha`] and [`Robust`] define: with [`Tier::BitExact`] not one bit
+//! A second, faster way to the numbers that a [`Model`] defines: with [`Tier::BitExact`] not one bit
 //! differs, whatever the instruction set or the number of threads. Footprints come as a structure of arrays
 //! ([`Columns`]). They are evaluated in blocks of [`BLOCK`], stage by stage, each stage one short loop without a
 //! branch; where the scalar path would have branched away from the common case (a derivative of zero, a cell beyond
@@ -38,10 +38,8 @@ pub use columns::{ColumnBuffer, Columns};
 pub use isa::Isa;
 pub use stream::CHUNK;
 
-use super::footprint::Footprint;
-use super::hashed::HashedAlpha;
-use super::real::Real;
-use super::robust::Robust;
+pub use super::model::Model;
+
 use core::fmt;
 
 /// How many footprints a stage handles at once: 128 keep every intermediate array in the first cache.
@@ -76,41 +74,6 @@ macro_rules! lane {
 }
 lane!(f32);
 lane!(f64);
-
-/// A threshold whose hash was chosen by name.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Model {
-    /// A listing, or one of its ablations.
-    Hashed(HashedAlpha),
-    /// The same before Eq. 2: two hashes mixed, and not uniform.
-    BeforeCdf(HashedAlpha),
-    /// The listing with repairs.
-    Robust(Robust),
-}
-
-impl From<HashedAlpha> for Model {
-    fn from(hashed: HashedAlpha) -> Self {
-        Self::Hashed(hashed)
-    }
-}
-
-impl From<Robust> for Model {
-    fn from(robust: Robust) -> Self {
-        Self::Robust(robust)
-    }
-}
-
-impl Model {
-    /// Returns the threshold of one footprint; NaN where [`Robust::threshold`] has an error.
-    #[must_use]
-    pub fn threshold<R: Real>(&self, footprint: &Footprint<R>) -> R {
-        match self {
-            Self::Hashed(hashed) => hashed.threshold(footprint),
-            Self::BeforeCdf(hashed) => hashed.trace(footprint).interpolated,
-            Self::Robust(robust) => robust.threshold(footprint).unwrap_or(R::from_f64(f64::NAN)),
-        }
-    }
-}
 
 /// How exact the sine and the logarithm of a batch are.
 ///

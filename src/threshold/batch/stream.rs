@@ -1,6 +1,7 @@
-//! Any number of thresholds on every core, without holding more of them than fit the second cache.
+//! Any number of thresholds on every core (one after the other without the feature `threads`), without holding more of them than fit the second cache.
 
 use super::{Batch, ColumnBuffer, Columns, Lane};
+#[cfg(feature = "threads")]
 use rayon::prelude::*;
 
 /// How many footprints are filled in, evaluated and handed on at once: in `f32` nine columns take 144 KiB.
@@ -16,7 +17,11 @@ impl Batch {
     /// If the columns and `out` are not all of one length.
     pub fn par_thresholds<R: Lane>(&self, columns: &Columns<'_, R>, out: &mut [R]) {
         assert!(columns.is_as_long_as(out), "columns of unequal length");
-        out.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, out)| {
+        #[cfg(feature = "threads")]
+        let chunks = out.par_chunks_mut(CHUNK);
+        #[cfg(not(feature = "threads"))]
+        let chunks = out.chunks_mut(CHUNK);
+        chunks.enumerate().for_each(|(chunk, out)| {
             let first = chunk * CHUNK;
             self.thresholds(&columns.slice(first..first + out.len()), out);
         });
@@ -74,9 +79,15 @@ impl Batch {
             }
             state
         };
-        (0..count.div_ceil(TASK)).into_par_iter().map(task).reduce(&start, |mut earlier, later| {
+        let merged = |mut earlier, later| {
             merge(&mut earlier, later);
             earlier
-        })
+        };
+        let tasks = 0..count.div_ceil(TASK);
+        #[cfg(feature = "threads")]
+        let whole = tasks.into_par_iter().map(task).reduce(&start, merged);
+        #[cfg(not(feature = "threads"))]
+        let whole = tasks.map(task).fold(start(), merged);
+        whole
     }
 }

@@ -131,8 +131,7 @@ impl fmt::Display for HashKind {
 }
 
 /// A name that belongs to none of the things that can be chosen.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("unknown {what} `{name}`; known are {known}")]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UnknownName {
     /// What was to be chosen, as in "hash".
     pub what: &'static str,
@@ -141,6 +140,15 @@ pub struct UnknownName {
     /// The names that would do, separated by commas.
     pub known: String,
 }
+
+impl fmt::Display for UnknownName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { what, name, known } = self;
+        write!(f, "unknown {what} `{name}`; known are {known}")
+    }
+}
+
+impl core::error::Error for UnknownName {}
 
 /// Finds the member of `all` whose `name` was given.
 pub(crate) fn by_name<T: Copy>(

@@ -43,6 +43,16 @@ impl Join {
             Self::Dithered => "dithered",
         }
     }
+
+    /// The number of hashes of one threshold, by how scales come from derivatives.
+    #[must_use]
+    pub const fn hashes(self, variant: Variant) -> u64 {
+        match (self, variant) {
+            (Self::Copula, Variant::Anisotropic) => 8,
+            (Self::Dithered, Variant::Anisotropic) => 4,
+            (Self::Interpolate | Self::Copula | Self::Dithered, _) => 2,
+        }
+    }
 }
 
 impl fmt::Display for Join {

@@ -15,6 +15,7 @@ use super::footprint::Footprint;
 use super::hash::{Hash, HashKind};
 use super::real::Real;
 use super::two_scale::Variant;
+use core::fmt;
 use join::Joined;
 use scales::Scales;
 
@@ -22,10 +23,9 @@ use scales::Scales;
 pub const SMALLEST_ROBUST_THRESHOLD: f64 = 1.0 / 16_777_216.0;
 
 /// A footprint or parameter that has no threshold.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum InvalidInput {
     /// A coordinate or derivative is NaN or infinite.
-    #[error("{what} is {value}; a finite number is needed")]
     NotFinite {
         /// Which one, as in "dpdx.y".
         what: &'static str,
@@ -33,9 +33,23 @@ pub enum InvalidInput {
         value: f64,
     },
     /// The hash scale is not a positive number.
-    #[error("the hash scale is {0}; a finite number of pixels above 0 is needed")]
     HashScale(f64),
 }
+
+// By hand, here and for `UnknownName`: a macro for two messages would be half of what the crate takes to compile without
+// features.
+impl fmt::Display for InvalidInput {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotFinite { what, value } => write!(f, "{what} is {value}; a finite number is needed"),
+            Self::HashScale(scale) => {
+                write!(f, "the hash scale is {scale}; a finite number of pixels above 0 is needed")
+            }
+        }
+    }
+}
+
+impl core::error::Error for InvalidInput {}
 
 /// The robust threshold and what it is made of.
 ///
@@ -88,7 +102,21 @@ impl Robust {
     }
 }
 
+impl Default for Robust {
+    /// With one scale for all axes.
+    fn default() -> Self {
+        Self::new(Variant::Isotropic)
+    }
+}
+
 impl<H> Robust<H> {
+    /// The same with another hash in place of its own.
+    #[must_use]
+    pub fn with_hash<G>(self, hash: G) -> Robust<G> {
+        let Self { variant, hash: _, hash_scale, join, repairs } = self;
+        Robust { variant, hash, hash_scale, join, repairs }
+    }
+
     /// Returns the threshold of a footprint, in [2^-24, 1] with every repair.
     ///
     /// # Errors

@@ -1,8 +1,134 @@
 //! n thresholds in one fragment: alpha-to-coverage as n alpha tests (§8, Eqs. 7 to 9).
 
 use super::clamp::clamp_last;
+use super::stratify::wrap;
+use crate::threshold::cdf::CdfForm;
+use crate::threshold::hash::integer::{murmur3, pcg};
+use crate::threshold::hash::open_lattice;
 use crate::threshold::real::Real;
+use crate::threshold::stochastic::stochastic;
 use core::num::NonZeroU32;
+
+/// Several thresholds in one fragment.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct SampleStrata {
+    /// Number of samples in a pixel.
+    pub samples: NonZeroU32,
+    /// Which thresholds they have.
+    pub pattern: SamplePattern,
+}
+
+/// The thresholds of the samples of a pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum SamplePattern {
+    /// The fixed dither of Eq. 7; needs no hash.
+    Regular,
+    /// One jitter for all strata, Eq. 8.
+    Jittered,
+    /// The same with strata in an order that each layer has for itself, Eq. 9.
+    Decorrelated,
+    /// Independent draws, as stochastic transparency has them (§10): the first is that of the source.
+    Independent,
+    /// `floor(n alpha)` samples, always the same ones, as the paper has it of hardware (§3, §8); needs no hash.
+    Hardware,
+    /// One jitter for all strata, which are shuffled for each fragment: random sets of samples (§3, Enderton et al. 2010).
+    Shuffled,
+    /// Strata turned by one value of the pixel, the same for all layers (Humus 2009); needs no threshold.
+    ByPixel,
+}
+
+impl SamplePattern {
+    /// Every pattern, in the order in which they are listed to users.
+    pub const ALL: [Self; 7] = [
+        Self::Regular,
+        Self::Jittered,
+        Self::Decorrelated,
+        Self::Independent,
+        Self::Hardware,
+        Self::Shuffled,
+        Self::ByPixel,
+    ];
+
+    /// The name by which a user asks for it.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Regular => "regular",
+            Self::Jittered => "jittered",
+            Self::Decorrelated => "decorrelated",
+            Self::Independent => "independent",
+            Self::Hardware => "hardware",
+            Self::Shuffled => "random",
+            Self::ByPixel => "pixel",
+        }
+    }
+
+    /// Whether samples have their thresholds from that of the fragment.
+    #[must_use]
+    pub const fn uses_source(self) -> bool {
+        match self {
+            Self::Jittered | Self::Decorrelated | Self::Independent | Self::Shuffled => true,
+            Self::Regular | Self::Hardware | Self::ByPixel => false,
+        }
+    }
+
+    /// Whether the order of the strata is drawn for each pixel, layer and frame.
+    #[must_use]
+    pub const fn is_permuted(self) -> bool {
+        matches!(self, Self::Decorrelated | Self::Shuffled)
+    }
+
+    /// The number of hashes that it takes for one fragment.
+    #[must_use]
+    pub const fn hashes(self) -> u64 {
+        match self {
+            Self::Decorrelated | Self::Shuffled | Self::ByPixel => 1,
+            Self::Regular | Self::Jittered | Self::Independent | Self::Hardware => 0,
+        }
+    }
+}
+
+impl SampleStrata {
+    /// Writes the thresholds of consecutive samples of one fragment, from the sample `first` on. `out[0]` holds the threshold
+    /// of the fragment; `words` are its own, `random` draws fresh ones.
+    pub(in crate::threshold) fn thresholds<R: Real>(
+        self,
+        form: CdfForm,
+        pixel: [u32; 2],
+        words: impl FnOnce() -> [u32; 4],
+        random: &mut impl FnMut() -> u32,
+        first: u32,
+        out: &mut [R],
+    ) {
+        let (n, chi, literal) = (self.samples, out[0], form == CdfForm::Literal);
+        let jitter =
+            |stratum| if literal { jittered_literal(chi, stratum, n) } else { jittered(chi, stratum, n) };
+        let samples = out.iter_mut().zip(first..);
+        match self.pattern {
+            SamplePattern::Regular => samples.for_each(|(out, i)| *out = regular(i, n)),
+            SamplePattern::Hardware => samples.for_each(|(out, i)| *out = hardware_threshold(i, n)),
+            SamplePattern::ByPixel => {
+                let chi = pixel_value(pixel);
+                samples.for_each(|(out, i)| *out = turned(chi, i, n));
+            }
+            SamplePattern::Jittered => samples.for_each(|(out, i)| *out = jitter(i)),
+            SamplePattern::Decorrelated => {
+                let [_, a, b, _] = words();
+                let xi: [R; 2] = [a, b].map(open_lattice);
+                let stratum = if literal { decorrelated_literal } else { decorrelated };
+                samples.for_each(|(out, i)| *out = jitter(stratum(xi, i, n)));
+            }
+            SamplePattern::Shuffled => {
+                let [_, _, _, word] = words();
+                samples.for_each(|(out, i)| *out = jitter(shuffled(word, i, n)));
+            }
+            SamplePattern::Independent => {
+                samples.filter(|&(_, i)| i > 0).for_each(|(out, _)| *out = stochastic(random()));
+            }
+        }
+    }
+}
 
 /// Returns the threshold of sample `i` of `n` under the fixed dither: `(i + 1/2) / n`; `i` counts modulo `n`. Eq. 7.
 ///
@@ -11,6 +137,26 @@ use core::num::NonZeroU32;
 #[must_use]
 pub fn regular<R: Real>(i: u32, n: NonZeroU32) -> R {
     (R::from_f64(f64::from(i % n)) + R::from_f64(0.5)) / R::from_f64(f64::from(n.get()))
+}
+
+/// Returns the threshold of sample `i` of `n` as hardware has it, `(i + 1) / n`, in (0, 1]; `i` counts modulo `n`. It keeps the
+/// `floor(n alpha)` samples that §3 and §8 give for hardware.
+#[must_use]
+pub fn hardware_threshold<R: Real>(i: u32, n: NonZeroU32) -> R {
+    R::from_f64(f64::from(i % n + 1)) / R::from_f64(f64::from(n.get()))
+}
+
+/// Returns the value of a pixel, in (0, 1), given its column and row: the same in every frame and layer (Humus 2009).
+#[must_use]
+pub fn pixel_value<R: Real>(pixel: [u32; 2]) -> R {
+    open_lattice(murmur3([pixel[0], pixel[1], 0, 0]))
+}
+
+/// Returns the threshold of sample `i` of `n` by a value of the pixel: `fract(chi + i / n)`, in [2^-24, 1] with a whole sum as 1.
+#[must_use]
+pub fn turned<R: Real>(chi: R, i: u32, n: NonZeroU32) -> R {
+    let share = R::from_f64(f64::from(i % n)) / R::from_f64(f64::from(n.get()));
+    wrap(chi + share)
 }
 
 /// Returns the threshold of sample `i` of `n`, jittered within its stratum: `(i + chi) / n`. Eq. 8.
@@ -54,6 +200,18 @@ pub fn decorrelated<R: Real>(xi: [R; 2], i: u32, n: NonZeroU32) -> u32 {
     let step = (1..=n.get()).filter(coprime).nth(chosen as usize).unwrap_or(1);
     let stratum = (u64::from(offset) + u64::from(i % n) * u64::from(step)) % u64::from(n.get());
     stratum as u32
+}
+
+/// Returns the stratum of sample `i` of `n` in the permutation that `word` draws, every one of them as likely as any
+/// other: the rank of the sample's own hash among those of all. `i` counts modulo `n`.
+///
+/// The work grows with `n`. Not in the paper, which names the permutations and not how to draw them.
+#[must_use]
+pub fn shuffled(word: u32, i: u32, n: NonZeroU32) -> u32 {
+    let hash = |sample: u32| pcg(word.wrapping_add(sample));
+    let own = hash(i % n);
+    // No two are equal: the hash is a bijection.
+    (0..n.get()).filter(|&other| hash(other) < own).count() as u32
 }
 
 /// Cuts [0, 1] into `n` equal parts and returns the index of the one that holds `xi`; 0 for NaN.
@@ -122,5 +280,21 @@ mod tests {
             }
         }
         assert_eq!(jittered_literal(0.0_f32, 0, NonZeroU32::MIN), 0.0);
+    }
+
+    /// Every permutation is equally likely: each of the 24 of 4 samples within 5 deviations.
+    #[test]
+    fn permutations_are_evenly_drawn() {
+        let mut counts = std::collections::HashMap::<Vec<u32>, u32>::new();
+        for word in 0..24_000 {
+            let word = murmur3([word, 1, 0, 0]);
+            *counts
+                .entry((0..4).map(|i| shuffled(word, i, NonZeroU32::new(4).unwrap())).collect())
+                .or_default() += 1;
+        }
+        assert_eq!(counts.len(), 24);
+        for (order, count) in counts {
+            assert!((f64::from(count) - 1000.0).abs() < 5.0 * 31.0, "{order:?}: {count}");
+        }
     }
 }

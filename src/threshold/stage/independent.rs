@@ -1,9 +1,48 @@
 //! Independent thresholds for the frames of temporal antialiasing: offsets, or a word for the frame (§7.2.2, §9).
 
+use crate::threshold::footprint::Footprint;
 use crate::threshold::hash::integer::murmur3;
 use crate::threshold::hash::offset::Offset;
 use crate::threshold::hash::{Cell, Hash};
+use crate::threshold::model::Model;
 use crate::threshold::real::Real;
+use core::num::NonZeroU32;
+
+/// Frames with hashes of their own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Independence {
+    /// Number of frames that belong together.
+    pub frames: NonZeroU32,
+    /// How their hashes are made independent.
+    pub by: IndependentBy,
+}
+
+/// How the hashes of frames are made independent.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum IndependentBy {
+    /// Cells are shifted (§7.2.2), [`by_offset`].
+    #[default]
+    Offset,
+    /// The octave word, for hashes that read it, [`ByFrame`]; not in the paper.
+    Word,
+}
+
+impl Independence {
+    /// Returns the threshold of a footprint in a frame.
+    pub(in crate::threshold) fn threshold<R: Real>(
+        self,
+        model: Model,
+        footprint: &Footprint<R>,
+        frame: u32,
+    ) -> R {
+        let (hash, frame) = (*model.hash(), frame % self.frames);
+        match self.by {
+            IndependentBy::Offset => model.with_hash(by_offset::<R, _>(hash, frame)).threshold(footprint),
+            IndependentBy::Word => model.with_hash(ByFrame { hash, frame }).threshold(footprint),
+        }
+    }
+}
 
 /// Offsets along each axis stay below this number of cells, so that `f32` still holds cells to which they are added.
 const FARTHEST_OFFSET: u32 = 4096;

@@ -3,10 +3,10 @@
 //! Bit i of a mask is sample i; `n` is at most 32, and samples beyond that are left out. Alpha 0 covers nothing and
 //! alpha 1 every sample, whatever the random numbers, in every function that is not called literal.
 
-use super::coverage::{decorrelated, decorrelated_literal, jittered, jittered_literal, regular};
-use super::stratify::wrap;
-use crate::threshold::hash::integer::{murmur3, pcg};
-use crate::threshold::hash::open_lattice;
+use super::coverage::{
+    decorrelated, decorrelated_literal, hardware_threshold, jittered, jittered_literal, pixel_value, regular,
+    shuffled, turned,
+};
 use crate::threshold::real::Real;
 use core::num::NonZeroU32;
 
@@ -38,13 +38,6 @@ pub fn fixed_dither<R: Real>(alpha: R, n: NonZeroU32) -> Mask {
 #[must_use]
 pub fn hardware<R: Real>(alpha: R, n: NonZeroU32) -> Mask {
     by_threshold(alpha, n, |i| hardware_threshold(i, n))
-}
-
-/// Returns the threshold of sample `i` of `n` that [`hardware`] comes to, `(i + 1) / n`, in (0, 1]; `i` counts modulo
-/// `n`.
-#[must_use]
-pub fn hardware_threshold<R: Real>(i: u32, n: NonZeroU32) -> R {
-    R::from_f64(f64::from(i % n + 1)) / R::from_f64(f64::from(n.get()))
 }
 
 /// Returns the mask of jittered thresholds, `(i + chi_i) / n`, clamped: Eq. 8. `chi(i)` is in [0, 1], one value for
@@ -84,18 +77,6 @@ pub fn random_set<R: Real>(alpha: R, n: NonZeroU32, chi: R, word: u32) -> Mask {
     by_threshold(alpha, n, |i| jittered(chi, shuffled(word, i, n), n))
 }
 
-/// Returns the stratum of sample `i` of `n` in the permutation that `word` draws, every one of them as likely as any
-/// other: the rank of the sample's own hash among those of all. `i` counts modulo `n`.
-///
-/// The work grows with `n`. Not in the paper, which names the permutations and not how to draw them.
-#[must_use]
-pub fn shuffled(word: u32, i: u32, n: NonZeroU32) -> u32 {
-    let hash = |sample: u32| pcg(word.wrapping_add(sample));
-    let own = hash(i % n);
-    // No two are equal: the hash is a bijection.
-    (0..n.get()).filter(|&other| hash(other) < own).count() as u32
-}
-
 /// Returns the mask of one pseudo-random value of the pixel: sample i is covered where alpha reaches
 /// `fract(chi + i / n)` (Humus 2009, who writes the mask to the shader's coverage output and shows no formula).
 ///
@@ -107,22 +88,10 @@ pub fn by_pixel<R: Real>(alpha: R, n: NonZeroU32, pixel: [u32; 2]) -> Mask {
     by_threshold(alpha, n, |i| turned(chi, i, n))
 }
 
-/// Returns the value of a pixel, in (0, 1), given its column and row: the same in every frame and layer (Humus 2009).
-#[must_use]
-pub fn pixel_value<R: Real>(pixel: [u32; 2]) -> R {
-    open_lattice(murmur3([pixel[0], pixel[1], 0, 0]))
-}
-
-/// Returns the threshold of sample `i` of `n` of [`by_pixel`]: `fract(chi + i / n)`, in [2^-24, 1] with a whole sum as 1.
-#[must_use]
-pub fn turned<R: Real>(chi: R, i: u32, n: NonZeroU32) -> R {
-    let share = R::from_f64(f64::from(i % n)) / R::from_f64(f64::from(n.get()));
-    wrap(chi + share)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::threshold::hash::{integer::murmur3, open_lattice};
 
     fn n(samples: u32) -> NonZeroU32 {
         NonZeroU32::new(samples).unwrap()
@@ -231,20 +200,6 @@ mod tests {
             } else {
                 assert_eq!(count, 0);
             }
-        }
-    }
-
-    /// Every permutation is equally likely: each of the 24 of 4 samples within 5 deviations.
-    #[test]
-    fn permutations_are_evenly_drawn() {
-        let mut counts = std::collections::HashMap::<Vec<u32>, u32>::new();
-        for word in 0..24_000 {
-            let word = murmur3([word, 1, 0, 0]);
-            *counts.entry((0..4).map(|i| shuffled(word, i, n(4))).collect()).or_default() += 1;
-        }
-        assert_eq!(counts.len(), 24);
-        for (order, count) in counts {
-            assert!((f64::from(count) - 1000.0).abs() < 5.0 * 31.0, "{order:?}: {count}");
         }
     }
 

@@ -6,10 +6,9 @@
 //! | [`stratify`], [`order`] | strata of frames and their order, §7.2.3, Eq. 6 |
 //! | [`coverage`], [`mask`] | several thresholds in one fragment, §8, Eqs. 7 to 9 |
 //! | [`screen_door`], [`stipple`] | thresholds of the pixel, §3, Ols 2009 |
-//! | [`fade_in`], [`blend_towards`] | noise that fades in, §7.1, Eqs. 3 to 5 |
+//! | [`fade_in`] | noise that fades in, §7.1, Eqs. 3 to 5 |
 //! | [`clamp`] | the last step of all |
 
-pub mod blend_towards;
 pub mod clamp;
 pub mod coverage;
 pub mod fade_in;

@@ -1,7 +1,8 @@
 //! Which stratum of a threshold a frame takes: the orders of temporal stratification (§7.2.3).
 
 use super::clamp::clamp_last;
-use super::stratify::{alternating, alternating_literal, stratified, wrap};
+use super::stratify::{alternating, alternating_literal, stratified, stratified_literal, wrap};
+use crate::threshold::cdf::CdfForm;
 use crate::threshold::real::Real;
 use core::num::NonZeroU32;
 
@@ -51,18 +52,49 @@ impl Order {
         }
     }
 
+    /// The stratum of frame `i` of `n`, where it is the same for every hashed value; `i` is below `n`.
+    fn stratum(self, i: u32, n: NonZeroU32) -> Option<u32> {
+        match self {
+            Self::Ascending => Some(i),
+            Self::AlternatingLiteral => Some(alternating_literal(i, n)),
+            Self::Alternating => Some(alternating(i, n)),
+            Self::VanDerCorput => Some(radical_rank(i, n)),
+            Self::VanDerCorputLiteral | Self::PhaseRotated | Self::PhaseRotatedVanDerCorput => None,
+        }
+    }
+
     /// Returns the threshold of frame `i` of `n` for a hashed `chi` in (0, 1], in [2^-24, 1]; `i` counts modulo `n`.
     #[must_use]
     pub fn threshold<R: Real>(self, chi: R, i: u32, n: NonZeroU32) -> R {
         let i = i % n;
         match self {
-            Self::Ascending => stratified(chi, i, n),
-            Self::AlternatingLiteral => stratified(chi, alternating_literal(i, n), n),
-            Self::Alternating => stratified(chi, alternating(i, n), n),
+            Self::Ascending | Self::AlternatingLiteral | Self::Alternating | Self::VanDerCorput => {
+                stratified(chi, self.stratum(i, n).unwrap_or(i), n)
+            }
             Self::VanDerCorputLiteral => wrap(chi + R::from_f64(radical_inverse(i, 2))),
-            Self::VanDerCorput => stratified(chi, radical_rank(i, n), n),
             Self::PhaseRotated => rotated(chi, i, n, alternating),
             Self::PhaseRotatedVanDerCorput => rotated(chi, i, n, radical_rank),
+        }
+    }
+}
+
+/// The threshold divided among frames.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct FrameStrata {
+    /// Number of frames that belong together.
+    pub frames: NonZeroU32,
+    /// Which stratum a frame takes.
+    pub order: Order,
+}
+
+impl FrameStrata {
+    /// Returns the threshold of a frame for a hashed `chi` in (0, 1]. The literal form is that of Eq. 6; orders that look at
+    /// `chi` or have no strata of equal size have one form.
+    pub(in crate::threshold) fn threshold<R: Real>(self, form: CdfForm, chi: R, frame: u32) -> R {
+        let Self { frames, order } = self;
+        match (form, order.stratum(frame % frames, frames)) {
+            (CdfForm::Literal, Some(stratum)) => stratified_literal(chi, stratum, frames),
+            (CdfForm::Literal, None) | (CdfForm::Stable, _) => order.threshold(chi, frame, frames),
         }
     }
 }

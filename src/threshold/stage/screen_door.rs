@@ -10,6 +10,69 @@ use core::num::NonZeroU32;
 pub const TILE: u32 = 4;
 const STRATA: NonZeroU32 = NonZeroU32::new(TILE * TILE).unwrap();
 
+/// Which threshold a pixel of a tile of 4 x 4 has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum ScreenDoor {
+    /// The ordered dither, the same in every tile and for every layer, [`fixed`].
+    Fixed,
+    /// An order that this seed draws, the same in every tile and for every layer, [`random_mask`].
+    RandomMask(u32),
+    /// Strata that are permuted and jittered for each tile and layer, [`randomised`].
+    Randomised,
+}
+
+impl ScreenDoor {
+    /// Every pattern, in the order in which they are listed to users; the random order is that of seed 0.
+    pub const ALL: [Self; 3] = [Self::Fixed, Self::RandomMask(0), Self::Randomised];
+
+    /// The name by which a user asks for it.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Fixed => "fixed",
+            Self::RandomMask(_) => "random",
+            Self::Randomised => "hashed",
+        }
+    }
+
+    /// The number of hashes of one threshold: two for the order of the tile's strata, one within the pixel's own.
+    #[must_use]
+    pub const fn hashes(self) -> u64 {
+        match self {
+            Self::Fixed | Self::RandomMask(_) => 0,
+            Self::Randomised => 3,
+        }
+    }
+
+    pub(in crate::threshold) fn threshold<R: Real>(self, pixel: [u32; 2], layer: u32) -> R {
+        match self {
+            Self::Fixed => fixed(pixel),
+            Self::RandomMask(seed) => random_mask(pixel, seed),
+            Self::Randomised => randomised(pixel, layer),
+        }
+    }
+
+    /// Writes the thresholds of many pixels; only one of the patterns reads their layers.
+    pub(in crate::threshold) fn thresholds<R: Real>(self, pixel: &[[u32; 2]], layer: &[u32], out: &mut [R]) {
+        assert_eq!(pixel.len(), out.len(), "columns of unequal length");
+        let pixels = out.iter_mut().zip(pixel);
+        match self {
+            Self::Fixed => pixels.for_each(|(out, &pixel)| *out = fixed(pixel)),
+            Self::RandomMask(seed) => {
+                // One mask for the whole screen.
+                let mask: [R; STRATA.get() as usize] =
+                    core::array::from_fn(|k| random_mask([k as u32 % TILE, k as u32 / TILE], seed));
+                pixels.for_each(|(out, &pixel)| *out = mask[place(pixel) as usize]);
+            }
+            Self::Randomised => {
+                assert_eq!(pixel.len(), layer.len(), "columns of unequal length");
+                pixels.zip(layer).for_each(|((out, &pixel), &layer)| *out = randomised(pixel, layer));
+            }
+        }
+    }
+}
+
 /// Returns the threshold of a pixel under a fixed mask: the ordered dither of 4 x 4 pixels, `(k + 1/2) / 16` (Mulder et
 /// al. 1998). The same in every tile and for every layer.
 #[must_use]

@@ -11,6 +11,20 @@ pub enum Density {
     Low,
 }
 
+impl Density {
+    /// Both, the greater first.
+    pub const ALL: [Self; 2] = [Self::High, Self::Low];
+
+    /// The name by which a user asks for it.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::High => "high",
+            Self::Low => "low",
+        }
+    }
+}
+
 /// Returns whether the stipple keeps a pixel, given its column and row: the odd pixel of an odd row is the one apart.
 ///
 /// The form with a texture of 2 x 2 texels.

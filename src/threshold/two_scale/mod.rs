@@ -42,6 +42,15 @@ impl Variant {
         }
     }
 
+    /// The number of cells that are hashed for one threshold.
+    #[must_use]
+    pub const fn hashes(self) -> u64 {
+        match self {
+            Self::Isotropic | Self::Anisotropic | Self::Linear => 2,
+            Self::Single => 1,
+        }
+    }
+
     /// Runs the variant on a footprint; `hash_scale` is in pixels (`g_HashScale`).
     #[must_use]
     pub fn two_scale<R: Real>(self, footprint: &Footprint<R>, hash_scale: R) -> TwoScale<R> {

@@ -14,7 +14,8 @@ pub use report::{Report, Row};
 pub use stages::stages;
 
 use super::{Device, Error, Kernel};
-use crate::shader::assemble::{ShaderOptions, assemble};
+use crate::shader::assemble::assemble;
+use crate::threshold::pipeline::Pipeline;
 
 /// What a device owes at a stage.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,7 +44,7 @@ pub struct Stage {
     /// What a device owes.
     pub class: Class,
     /// What text the functions of the expression come from.
-    pub options: fn() -> ShaderOptions,
+    pub pipeline: fn() -> Pipeline,
     /// WGSL over `word(k)` and `number(k)` that makes an array of words.
     pub expression: &'static str,
     /// Words of an input and of an output.
@@ -98,9 +99,9 @@ impl Stage {
     ///
     /// # Errors
     ///
-    /// [`Error::Validation`] for options that cannot be written.
+    /// [`Error::Validation`] for a pipeline without a text.
     pub fn kernel(&self) -> Result<Kernel, Error> {
-        let source = assemble(&(self.options)()).map_err(|error| Error::Validation(error.to_string()))?;
+        let source = assemble((self.pipeline)()).map_err(|error| Error::Validation(error.to_string()))?;
         let source = format!("{source}{THREE}");
         Ok(Kernel::of_words(&source, self.words[0], self.words[1], self.expression))
     }

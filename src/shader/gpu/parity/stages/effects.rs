@@ -3,52 +3,44 @@
 use super::super::input::{self, number, numbers};
 use super::super::{Class, Stage};
 use super::{bounded, isotropic, stable};
-use crate::shader::assemble::{Coverage, FadeIn, ScreenDoor, ShaderOptions, Source, Strata, Stratify};
-use crate::threshold::cdf::CdfForm;
-use crate::threshold::robust::Join;
+use crate::threshold::pipeline::{
+    FadeIn, FrameStrata, Pipeline, SamplePattern, SampleStrata, ScreenDoor, Source,
+};
 use crate::threshold::stage::order::{Order, radical_inverse};
 use crate::threshold::stage::stipple::{self, Density};
-use crate::threshold::stage::{coverage, fade_in, mask, screen_door, stratify};
-use core::num::{NonZeroU16, NonZeroU32};
+use crate::threshold::stage::{coverage, fade_in, screen_door, stratify};
+use core::num::NonZeroU32;
 
-const FRAMES: NonZeroU16 = NonZeroU16::new(8).unwrap();
+const FRAMES: NonZeroU32 = NonZeroU32::new(8).unwrap();
 
-/// Every effect, in the form that `source` asks for.
-fn effects(source: Source) -> ShaderOptions {
-    let literal = source == Source::Listing(CdfForm::Literal);
-    let order = if literal { Order::AlternatingLiteral } else { Order::Alternating };
-    ShaderOptions {
-        source,
-        stratify: Some(Stratify { frames: FRAMES, order }),
-        coverage: Some(Coverage { samples: FRAMES, strata: Strata::Decorrelated }),
-        fade_in: Some(FadeIn { full_noise_lod: 6.0, anisotropy: true }),
-        ..isotropic()
+/// Every stage on a source.
+fn effects(base: Pipeline, order: Order) -> Pipeline {
+    Pipeline {
+        frame_strata: Some(FrameStrata { frames: FRAMES, order }),
+        sample_strata: Some(SampleStrata { samples: FRAMES, pattern: SamplePattern::Decorrelated }),
+        fade_in: Some(FadeIn { anisotropy: true, ..FadeIn::default() }),
+        ..base
     }
 }
 
-fn stable_effects() -> ShaderOptions {
-    effects(Source::Robust(Join::Interpolate))
+fn stable_effects() -> Pipeline {
+    effects(Pipeline::default(), Order::Alternating)
 }
 
-fn literal_effects() -> ShaderOptions {
-    effects(Source::Listing(CdfForm::Literal))
+fn literal_effects() -> Pipeline {
+    effects(isotropic(), Order::AlternatingLiteral)
 }
 
-fn pixel_mask() -> ShaderOptions {
-    ShaderOptions { source: Source::PixelMask(FRAMES), ..isotropic() }
+fn sampled(pattern: SamplePattern) -> Pipeline {
+    Pipeline { sample_strata: Some(SampleStrata { samples: FRAMES, pattern }), ..stable() }
 }
 
-fn shuffled() -> ShaderOptions {
-    let coverage = Some(Coverage { samples: FRAMES, strata: Strata::Shuffled });
-    ShaderOptions { coverage, ..stable() }
+fn ordered_by(order: Order) -> Pipeline {
+    Pipeline { frame_strata: Some(FrameStrata { frames: FRAMES, order }), ..stable() }
 }
 
-fn ordered_by(order: Order) -> ShaderOptions {
-    ShaderOptions { stratify: Some(Stratify { frames: FRAMES, order }), ..stable() }
-}
-
-fn door(door: ScreenDoor) -> ShaderOptions {
-    ShaderOptions { source: Source::ScreenDoor(door), ..isotropic() }
+fn door(door: ScreenDoor) -> Pipeline {
+    Source::ScreenDoor(door).into()
 }
 
 /// Reads the number of strata in word `k`.
@@ -79,13 +71,13 @@ pub(super) const STAGES: &[Stage] = &[
     number_stage!(
         "fade in", bounded(2.0, 0.0, "two products and a sum that may be fused"), stable_effects,
         "fade_in(number(0u), number(1u))", 2, input::faded,
-        |words| fade_in::fade_in(number(words, 0), number(words, 1)),
+        |words| fade_in::fade_in(0.5, number(words, 0), number(words, 1)),
         ["(1.0 - b) * 0.5", "(1.0 - b) * 0.499"]
     ),
     number_stage!(
         "fade in literal", bounded(2.0, 1.0 / 16_777_216.0, "a product and a sum that may be fused"), literal_effects,
         "fade_in(number(0u), number(1u))", 2, input::faded,
-        |words| fade_in::fade_in_literal(number(words, 0), number(words, 1)),
+        |words| fade_in::fade_in_literal(0.5, number(words, 0), number(words, 1)),
         ["(threshold_value - 0.5)", "(threshold_value - 0.501)"]
     ),
     number_stage!(
@@ -146,32 +138,32 @@ pub(super) const STAGES: &[Stage] = &[
         ["if word < own_word", "if word <= own_word"]
     ),
     number_stage!(
-        "pixel value", Class::Bits, pixel_mask,
+        "pixel value", Class::Bits, || sampled(SamplePattern::ByPixel),
         "pixel_value(vec2<u32>(word(0u), word(1u)))", 2, input::faded,
-        |words| mask::pixel_value([words[0], words[1]]),
+        |words| coverage::pixel_value([words[0], words[1]]),
         ["pixel.x, pixel.y", "pixel.y, pixel.x"]
     ),
     number_stage!(
-        "pixel mask", bounded(0.0, 4.0 / 16_777_216.0, "a quotient of 2.5 ULP below 1, and a sum below 2"), pixel_mask,
+        "pixel mask", bounded(0.0, 4.0 / 16_777_216.0, "a quotient of 2.5 ULP below 1, and a sum below 2"), || sampled(SamplePattern::ByPixel),
         "turned(number(0u), word(1u), word(2u))", 3, input::stratum_off_jumps,
-        |words| mask::turned(number(words, 0), words[1], strata(words, 2)),
+        |words| coverage::turned(number(words, 0), words[1], strata(words, 2)),
         ["let sum = chi + f32(i % n)", "let sum = chi + f32(i % n + 1u)"]
     ),
     number_stage!(
-        "stipple", Class::Bits, || ShaderOptions { source: Source::Stipple(Density::High), ..isotropic() },
+        "stipple", Class::Bits, || Source::Stipple { density: Density::High, kept: 0.5 }.into(),
         "select(0.5, 1.0, is_apart(vec2<u32>(word(0u) >> 20u, word(1u) >> 20u)))", 2, input::faded,
         |words| stipple::threshold(Density::High, [words[0] >> 20, words[1] >> 20], 0.5),
         ["& 1u", "& 2u"]
     ),
     number_stage!(
-        "shuffled", Class::Bits, shuffled,
+        "shuffled", Class::Bits, || sampled(SamplePattern::Shuffled),
         "f32(shuffled(word(0u), word(1u), word(2u)))", 3, input::stratum,
-        |words| mask::shuffled(words[0], words[1], strata(words, 2)) as f32,
+        |words| coverage::shuffled(words[0], words[1], strata(words, 2)) as f32,
         ["pcg(word + other) <", "pcg(word + other) <="]
     ),
     number_stage!(
         "regular", bounded(2.5, 0.0, "a quotient: 2.5 ULP"),
-        || ShaderOptions { source: Source::Regular(FRAMES), ..isotropic() },
+        || sampled(SamplePattern::Regular),
         "regular(word(1u), word(2u))", 3, input::stratum,
         |words| coverage::regular(words[1], strata(words, 2)),
         ["+ 0.5", "+ 0.25"]

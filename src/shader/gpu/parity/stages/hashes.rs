@@ -16,7 +16,7 @@ macro_rules! hash_stage {
         Stage {
             name: $name,
             class: $class,
-            options: || listing(Variant::Isotropic, $kind),
+            pipeline: || listing(Variant::Isotropic, $kind),
             expression: concat!(
                 "array(bitcast<u32>(hash_cell(Cell(vec3<f32>(number(0u), number(1u), number(2u))",
                 $octave,

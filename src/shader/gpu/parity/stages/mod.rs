@@ -2,10 +2,11 @@
 //! threshold.
 
 use super::{Class, Stage};
-use crate::shader::assemble::{ShaderOptions, Source};
 use crate::threshold::cdf::CdfForm;
 use crate::threshold::hash::HashKind;
-use crate::threshold::robust::Join;
+use crate::threshold::hashed::HashedAlpha;
+use crate::threshold::pipeline::Pipeline;
+use crate::threshold::robust::{Join, Robust};
 use crate::threshold::two_scale::Variant;
 
 const fn bounded(ulp: f64, absolute: f64, source: &'static str) -> Class {
@@ -19,34 +20,34 @@ const LOG2: f64 = 1.0 / 2_097_152.0;
 const EQ_2: Class =
     bounded(4.0, 4.0 / 16_777_216.0, "one or two quotients of 2.5 ULP, products that may be fused");
 
-fn listing(variant: Variant, hash: HashKind) -> ShaderOptions {
-    ShaderOptions { hash, ..ShaderOptions::listing(variant) }
+fn listing(variant: Variant, hash: HashKind) -> Pipeline {
+    Pipeline::listing(variant).with_hash(hash)
 }
 
-fn isotropic() -> ShaderOptions {
+fn isotropic() -> Pipeline {
     listing(Variant::Isotropic, HashKind::Mm4)
 }
 
-fn anisotropic() -> ShaderOptions {
+fn anisotropic() -> Pipeline {
     listing(Variant::Anisotropic, HashKind::Mm4)
 }
 
-fn stable() -> ShaderOptions {
-    ShaderOptions { source: Source::Listing(CdfForm::Stable), ..isotropic() }
+fn stable() -> Pipeline {
+    HashedAlpha { form: CdfForm::Stable, ..HashedAlpha::default().with_hash(HashKind::Mm4) }.into()
 }
 
-fn robust(variant: Variant, join: Join) -> ShaderOptions {
-    ShaderOptions { source: Source::Robust(join), ..ShaderOptions::robust(variant) }
+fn robust(variant: Variant, join: Join) -> Pipeline {
+    Robust { join, ..Robust::new(variant) }.into()
 }
 
 /// A stage whose expression is one number.
 macro_rules! number_stage {
-    ($name:literal, $class:expr, $options:expr, $expression:literal, $words:literal, $input:expr,
+    ($name:literal, $class:expr, $pipeline:expr, $expression:literal, $words:literal, $input:expr,
      |$given:ident| $value:expr, [$right:literal, $wrong:literal]) => {
         Stage {
             name: $name,
             class: $class,
-            options: $options,
+            pipeline: $pipeline,
             expression: concat!("array(bitcast<u32>(", $expression, "))"),
             words: [$words, 1],
             input: $input,
@@ -58,12 +59,12 @@ macro_rules! number_stage {
 
 /// A stage whose expression is a vector of three numbers.
 macro_rules! vector_stage {
-    ($name:literal, $class:expr, $options:expr, $expression:literal, $words:literal, $input:expr,
+    ($name:literal, $class:expr, $pipeline:expr, $expression:literal, $words:literal, $input:expr,
      |$given:ident| $value:expr, [$right:literal, $wrong:literal]) => {
         Stage {
             name: $name,
             class: $class,
-            options: $options,
+            pipeline: $pipeline,
             expression: concat!("three(", $expression, ")"),
             words: [$words, 3],
             input: $input,

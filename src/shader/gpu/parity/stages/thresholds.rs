@@ -33,11 +33,11 @@ fn listing_threshold(variant: Variant, hash: HashKind, words: &[u32], out: &mut 
 
 /// A whole threshold of nine numbers.
 macro_rules! threshold_stage {
-    ($name:literal, $class:expr, $options:expr, $input:expr, $reference:expr, [$right:literal, $wrong:literal]) => {
+    ($name:literal, $class:expr, $pipeline:expr, $input:expr, $reference:expr, [$right:literal, $wrong:literal]) => {
         Stage {
             name: $name,
             class: $class,
-            options: $options,
+            pipeline: $pipeline,
             expression: "array(bitcast<u32>(threshold(
     vec3<f32>(number(0u), number(1u), number(2u)),
     vec3<f32>(number(3u), number(4u), number(5u)),
