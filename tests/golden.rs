@@ -60,6 +60,7 @@ fn numbers(evidence: &Evidence) -> Vec<String> {
             [*side as u64].iter().chain(counts).map(ToString::to_string).collect()
         }
         Evidence::Shares { points, .. } | Evidence::Quantity { points, .. } => of_points(points),
+        other => panic!("the digest knows nothing of {other:?}"),
     }
 }
 

@@ -53,6 +53,7 @@ impl fmt::Display for Agreement {
 
 /// What a comparison of two subjects found.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Comparison {
     /// Fragments that both were asked for.
     pub n: u64,

@@ -1,4 +1,4 @@
-//! What a rejected threshold looks like: the specimens that much the same claims reject.
+//! What a rejected threshold looks like: the known defects, as specimens, that nearly the same claims reject.
 
 use super::claims::range::RANGE;
 use super::known::listing_fails;
@@ -17,6 +17,7 @@ const NO_THRESHOLD: f64 = 0.9;
 
 /// A specimen that a subject looks like.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct Guess {
     /// The specimen.
     pub specimen: &'static Specimen,
@@ -32,8 +33,8 @@ impl fmt::Display for Guess {
     }
 }
 
-/// Returns the specimens that the subject of these outcomes looks like, the likest first. Of those that are equally like
-/// it, which happens where few claims were tried, the one with the simplest defect comes first: the one that the fewest
+/// Returns the specimens that the subject of these outcomes looks like, the most similar first. Of those that are equally
+/// similar, which happens where few claims were tried, the one with the simplest defect comes first: the one that the fewest
 /// claims of the whole suite reject.
 ///
 /// Specimens are sound but for one defect. A subject may be a port of the paper's own listing with that defect: what the
@@ -85,6 +86,7 @@ pub fn guesses(outcomes: &[Outcome]) -> Vec<Guess> {
 
 /// What one subject of a run looks like.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Diagnosis<'a> {
     /// Name of the subject.
     pub subject: &'a str,
@@ -92,7 +94,7 @@ pub struct Diagnosis<'a> {
     pub precision: Precision,
     /// Whether it answers next to nothing but what is no threshold; then there are no guesses, since no other claim says more.
     pub is_no_threshold: bool,
-    /// The likest specimens, at most three.
+    /// The most similar specimens, at most three.
     pub guesses: Vec<Guess>,
 }
 

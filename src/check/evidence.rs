@@ -2,6 +2,7 @@
 
 /// Evidence of one claim.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub enum Evidence {
     /// Nothing to draw.
     #[default]

@@ -12,6 +12,7 @@ use std::borrow::Cow;
 
 /// A claim that is known to be rejected.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Known {
     /// Identifier of the claim.
     pub check: Cow<'static, str>,
@@ -51,6 +52,12 @@ impl fmt::Display for Who {
 }
 
 impl Known {
+    /// Makes an entry about one subject.
+    #[must_use]
+    pub fn of_subject(check: String, name: String, precision: Precision, reason: String) -> Self {
+        Self { check: check.into(), who: Who::Subject { name, precision }, reason: reason.into() }
+    }
+
     /// Returns whether an outcome is of this claim and subject, whatever its verdict.
     #[must_use]
     pub fn is_about(&self, outcome: &Outcome) -> bool {

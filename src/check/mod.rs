@@ -1,19 +1,41 @@
 //! The verdict: claims about a threshold, each tried on a subject with evidence.
 //!
+//! A [`Claim`] is a sentence about thresholds and the function that tries it; a [`Trial`] is what one try on a [`Subject`] saw;
+//! an [`Outcome`] is the answer when all trials of a run are judged together, and its [`Standing`] what that is worth.
+//!
+//! ```
+//! use hashed_alpha::check::{Draw, Standing, claims, run_claims};
+//! use hashed_alpha::{Budget, Subject, Variant};
+//!
+//! // A threshold that keeps the same half of all fragments, whatever their alpha.
+//! let constant = Subject::of_f32("constant", Variant::Isotropic, |_| 0.5);
+//! let draw = Draw { budget: Budget::Quick, ..Draw::default() };
+//! let outcomes = run_claims(&[claims::uniform::COVERAGE], &[constant], &draw, || {});
+//! assert_eq!(outcomes[0].standing(), Standing::Against);
+//! ```
+//!
+//! The modules that are hidden from these pages (inputs, closed forms, statistics that claims share, constants) are public for
+//! our own tests alone and outside of semantic versioning.
+//!
 //! What never lives here: statistics themselves ([`crate::stats`]), pictures ([`crate::report`]), printing.
 
 pub mod claim;
 pub mod claims;
 pub mod compare;
+#[doc(hidden)]
 pub mod coordinates;
 pub mod diagnosis;
 pub mod draw;
 pub mod evidence;
+#[doc(hidden)]
 pub mod input;
+#[doc(hidden)]
 pub mod judge;
 pub mod known;
 pub mod outcome;
+#[doc(hidden)]
 pub mod parity;
+#[doc(hidden)]
 pub mod predict;
 pub mod results;
 pub mod run;
@@ -21,6 +43,7 @@ pub mod run;
 pub mod shaders;
 pub mod specimen;
 pub mod subject;
+#[doc(hidden)]
 pub mod tolerance;
 pub mod trial;
 
@@ -32,5 +55,5 @@ pub use known::Known;
 pub use outcome::{Outcome, Standing, Verdict};
 pub use results::{Results, Suite};
 pub use run::{run, run_claims};
-pub use subject::Subject;
+pub use subject::{Precision, Subject};
 pub use trial::{Attempt, Conclusion, Trial};

@@ -8,6 +8,7 @@ use std::borrow::Cow;
 
 /// The answer to a claim.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Verdict {
     /// Nothing seen speaks against the claim.
     Consistent,

@@ -33,6 +33,7 @@ impl Suite {
 
 /// What every claim said about a subject.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Results {
     /// One outcome a claim, in the order of the claims.
     pub outcomes: Vec<Outcome>,

@@ -94,7 +94,10 @@ fn tried(subject: &Subject<'_>, claim: &Claim, draw: &Draw) -> Trial {
 fn probability(trial: &Trial) -> Option<f64> {
     match trial.conclusion {
         Conclusion::Probability(p) => Some(p),
-        _ => None,
+        Conclusion::Exact { .. }
+        | Conclusion::Inconclusive
+        | Conclusion::Unavailable
+        | Conclusion::NotApplicable => None,
     }
 }
 

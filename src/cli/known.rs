@@ -2,7 +2,7 @@
 
 use super::failure::Failure;
 use hashed_alpha::check::claims;
-use hashed_alpha::check::known::{Known, Who};
+use hashed_alpha::check::known::Known;
 use hashed_alpha::check::subject::Precision;
 use serde::de::Error;
 use serde::{Deserialize, Deserializer};
@@ -33,7 +33,7 @@ struct Written {
 
 impl From<Written> for Known {
     fn from(Written { check, subject, precision, reason }: Written) -> Self {
-        Self { check: check.into(), who: Who::Subject { name: subject, precision }, reason: reason.into() }
+        Self::of_subject(check, subject, precision, reason)
     }
 }
 
@@ -103,9 +103,9 @@ reason = "all cells of one z share a bias"
     #[test]
     fn a_list_is_read() {
         let known = parse(LIST).unwrap();
-        let who = Who::Subject { name: "paper:isotropic".to_owned(), precision: Precision::F32 };
-        let reason = "all cells of one z share a bias".into();
-        assert_eq!(known, [Known { check: "uniform.constant_z".into(), who, reason }]);
+        let [check, subject, reason] =
+            ["uniform.constant_z", "paper:isotropic", "all cells of one z share a bias"].map(str::to_owned);
+        assert_eq!(known, [Known::of_subject(check, subject, Precision::F32, reason)]);
         assert_eq!(parse("# nothing is known"), Ok(Vec::new()));
     }
 

@@ -3,7 +3,7 @@
 use crate::check::claim::{Claim, Promise};
 use crate::check::input::sample::{UsedCells, general_scenes, placed, placement, sighting};
 use crate::check::tolerance::{DRAWS_A_SAMPLE, PAIR_BINS, PLACEMENT};
-use crate::check::trial::{Attempt, Conclusion, Trial, reject_outsiders};
+use crate::check::trial::{Attempt, Trial, reject_outsiders};
 use crate::check::{Draw, Evidence, Subject, Verdict};
 use crate::scene::{Fragment, Rectangle, Scene};
 use crate::stats::chi_square::{self, ChiSquare};
@@ -44,9 +44,7 @@ pub const QUARTER: Claim = Claim {
 
 fn parallel(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     let mut rng = draw.rng(PARALLEL.id);
-    let Some(wall) = Scene::all().into_iter().find(|scene| scene.name == "wall") else {
-        return Ok(Trial::without(Conclusion::Inconclusive, "there is no scene of that name"));
-    };
+    let wall = Scene::wall();
     both_kept(
         subject,
         (0..LAYER_PAIRS).map(|_| samples(subject, &wall, draw.samples(LAYER_SAMPLES), &mut rng)),

@@ -65,7 +65,7 @@ pub const DYADIC: Claim = Claim {
 struct Seen {
     before: Fragment,
     after: Fragment,
-    /// How far apart the two points of the surface are in truth, in object units.
+    /// How far apart the two points of the surface really are, in object units.
     motion: DVec3,
 }
 

@@ -87,6 +87,7 @@ const KINDS: [(f64, &str); 3] = [
     (1.0 / TILT_STRETCH, "foreshortened along y"),
 ];
 
+/// Pixels of an image along x and y.
 const SIZE: [usize; 2] = [SPECTRUM_SIDE; 2];
 
 /// Images of one kind of patch on one side of lerp factor 1/2, where an error in the weights has one sign.

@@ -72,7 +72,7 @@ impl Motion {
                     ..*camera
                 }
             }
-            _ => *camera,
+            Self::ObjectTranslation | Self::ObjectRotation | Self::Skinning | Self::Deformation => *camera,
         }
     }
 

@@ -82,7 +82,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_replicas_that_are_all_zero_say_nothing() {
+    fn only_replicates_that_are_all_zero_say_nothing() {
         let p = |replicates: &[f64]| Mean::of("", replicates).map(|mean| mean.p);
         assert_eq!(p(&[0.0; 4]), Some(1.0));
         assert_eq!(p(&[0.3; 4]), Some(0.0));

@@ -56,8 +56,7 @@ pub fn flip_between(subject: &Subject<'_>, before: &Nominal, after: &Nominal, al
     }
 }
 
-/// Hands over the fractions of the coarser and of the finer of two views along an axis, and the whole octaves between
-/// them.
+/// Orders two views by their scale along an axis and calls `value(fractions, octaves_between)`, the coarser one first.
 fn on_scale(before: &Nominal, after: &Nominal, axis: usize, value: impl Fn([f64; 2], f64) -> f64) -> f64 {
     let place = |view: &Nominal| (libm::log2(view.coarse_scale[axis]), view.fraction[axis]);
     let (mut low, mut high) = (place(before), place(after));

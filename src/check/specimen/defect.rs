@@ -5,6 +5,7 @@ use core::fmt;
 
 /// A threshold with one defect.
 #[derive(Clone, Copy)]
+#[non_exhaustive]
 pub struct Specimen {
     /// Its name, in words joined by hyphens.
     pub name: &'static str,
