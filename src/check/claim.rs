@@ -4,6 +4,39 @@ use crate::check::trial::{Attempt, Trial};
 use crate::check::{Draw, Subject, Verdict};
 
 /// A sentence about a threshold, and how it is tried.
+///
+/// The built-in ones are [`claims::ALL`](super::claims::ALL). One of your own is a constant, too:
+///
+/// ```
+/// use hashed_alpha::check::{Attempt, Claim, Conclusion, Draw, Promise, Trial, Verdict, run_claims};
+/// use hashed_alpha::scene::{Fragment, Scene};
+/// use hashed_alpha::{Subject, Variant};
+///
+/// fn above_zero(subject: &Subject<'_>, _: &Draw) -> Attempt<Trial> {
+///     let fragments: Vec<Fragment> = Scene::wall().fragments().step_by(1000).collect();
+///     let thresholds = subject.thresholds(&fragments);
+///     let bad = thresholds.iter().filter(|threshold| !(**threshold > 0.0)).count();
+///     Ok(Trial {
+///         n: fragments.len() as u64,
+///         effect: Some(bad as f64 / fragments.len() as f64),
+///         effect_name: "share of fragments",
+///         ..Trial::without(Conclusion::Exact { holds: bad == 0 }, format!("{bad} thresholds are not above zero"))
+///     })
+/// }
+///
+/// const ABOVE_ZERO: Claim = Claim {
+///     id: "mine.above_zero",
+///     anchor: "§5",
+///     statement: "every threshold on a wall is above zero",
+///     expected: Verdict::Consistent,
+///     promise: None,
+///     run: above_zero,
+/// };
+///
+/// let subject = Subject::of_f32("mine", Variant::Isotropic, |_| 0.0);
+/// let outcomes = run_claims(&[ABOVE_ZERO], &[subject], &Draw::default(), || {});
+/// assert_eq!(outcomes[0].verdict, Verdict::Rejected);
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Claim {
     /// Identifier, `family.claim`.

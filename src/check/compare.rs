@@ -4,7 +4,7 @@
 //! what rests on the sine of large arguments shares no digit between two machines, and all that can be the same is the
 //! law.
 
-use crate::check::input::sample::{general_scenes, independent};
+use crate::check::input::{general_scenes, independent};
 use crate::check::tolerance::{DRAWS_A_PLACE, FAMILY_LEVEL, LERP_GROUPS, PAIR_BINS};
 use crate::check::{Draw, Subject};
 use crate::scene::Fragment;

@@ -5,11 +5,9 @@
 //! those coordinates. It is kept if it changes by no more than the change of its scale explains; points whose scale
 //! explains much are left out.
 
-use crate::check::input::motion::Motion;
-use crate::check::input::sample::{general_scenes, placement, sighting};
-use crate::check::predict::slope::largest_change;
-use crate::check::subject::Precision;
-use crate::check::{Draw, Subject};
+use crate::check::input::{Motion, general_scenes, placement, sighting};
+use crate::check::predict::largest_change;
+use crate::check::{Draw, Precision, Subject};
 use crate::scene::Fragment;
 use crate::threshold::footprint::Footprint;
 use crate::threshold::hash::HashKind;

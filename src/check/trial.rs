@@ -10,7 +10,7 @@ use crate::threshold::footprint::Footprint;
 /// What a trial reached, or the trial that ended it early.
 pub type Attempt<T> = Result<T, Box<Trial>>;
 
-/// What a trial says before other trials are taken into account.
+/// What one trial says by itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Conclusion {
     /// A statement without chance in it holds or does not.
@@ -18,7 +18,8 @@ pub enum Conclusion {
         /// Whether it holds.
         holds: bool,
     },
-    /// The probability, under the claim, of evidence as strong as that seen.
+    /// The probability in [0, 1], under the claim, of evidence at least as strong as that seen: a p-value that already counts
+    /// all statistics of the trial.
     Probability(f64),
     /// The samples were too few for an answer.
     Inconclusive,
@@ -28,22 +29,22 @@ pub enum Conclusion {
     NotApplicable,
 }
 
-/// What was seen when a claim was tried.
+/// What was seen when a claim was tried on a subject once, before the other trials of the run are taken into account.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trial {
     /// The answer.
     pub conclusion: Conclusion,
     /// The test statistic.
     pub statistic: Option<f64>,
-    /// What the statistic is.
+    /// What the statistic is, as in "chi-square, 63 dof".
     pub statistic_name: String,
     /// Samples that entered it.
     pub n: u64,
-    /// Size of the effect seen.
+    /// Size of the effect seen, in the unit of `effect_name`.
     pub effect: Option<f64>,
-    /// What the effect measures.
+    /// What the effect measures, as in "error in coverage".
     pub effect_name: &'static str,
-    /// Smallest effect that would have been seen.
+    /// Smallest effect that would have been seen with power 0.999, in the same unit.
     pub detectable: Option<f64>,
     /// What was seen, in words; reported where the claim is rejected or without an answer.
     pub seen: String,
@@ -52,8 +53,10 @@ pub struct Trial {
 }
 
 impl Trial {
-    /// A trial that could not be held, and why.
-    pub(crate) fn without(conclusion: Conclusion, reason: impl Into<String>) -> Self {
+    /// A trial with no more than a conclusion and what was seen, in words: one that could not be held, or that has its numbers
+    /// still to come.
+    #[must_use]
+    pub fn without(conclusion: Conclusion, reason: impl Into<String>) -> Self {
         Self {
             conclusion,
             statistic: None,
@@ -67,18 +70,22 @@ impl Trial {
         }
     }
 
-    /// A trial that failed before any statistic, because some thresholds were none: NaN or outside [0, 1].
-    fn no_thresholds(outside: usize, n: usize, example: String) -> Self {
+    /// A trial of a statement without chance in it, which `bad` of `n` samples break.
+    pub(crate) fn counted(
+        bad: u64,
+        n: u64,
+        statistic_name: &str,
+        effect_name: &'static str,
+        seen: String,
+    ) -> Self {
         Self {
-            conclusion: Conclusion::Exact { holds: false },
-            statistic: Some(outside as f64),
-            statistic_name: "thresholds outside [0, 1]".into(),
-            n: n as u64,
-            effect: Some(outside as f64 / n as f64),
-            effect_name: "share of samples",
+            statistic: Some(bad as f64),
+            statistic_name: statistic_name.into(),
+            n,
+            effect: Some(bad as f64 / n as f64),
+            effect_name,
             detectable: Some(detectable_share(n as f64)),
-            seen: format!("{outside} of {n} thresholds are NaN or outside [0, 1]; {example}"),
-            evidence: Evidence::None,
+            ..Self::without(Conclusion::Exact { holds: bad == 0 }, seen)
         }
     }
 
@@ -114,15 +121,13 @@ pub(crate) fn detectable_share(n: f64) -> f64 {
 
 /// Ends a claim whose samples are not all thresholds.
 pub(crate) fn reject_outsiders<F: Copy + Into<Fragment>>(samples: &[F], values: &[f64]) -> Attempt<()> {
-    let outside = |value: &&f64| !(0.0..=1.0).contains(*value);
-    match values.iter().position(|value| outside(&value)) {
-        None => Ok(()),
-        Some(first) => Err(Box::new(Trial::no_thresholds(
-            values.iter().filter(outside).count(),
-            values.len(),
-            format!("first {}", describe(&samples[first].into().footprint, values[first])),
-        ))),
-    }
+    let is_outside = |value: &&f64| !(0.0..=1.0).contains(*value);
+    let Some(first) = values.iter().position(|value| is_outside(&value)) else { return Ok(()) };
+    let (outside, n) = (values.iter().filter(is_outside).count(), values.len());
+    let example = describe(&samples[first].into().footprint, values[first]);
+    let seen = format!("{outside} of {n} thresholds are NaN or outside [0, 1]; first {example}");
+    let name = "thresholds outside [0, 1]";
+    Err(Box::new(Trial::counted(outside as u64, n as u64, name, "share of samples", seen)))
 }
 
 /// Writes a footprint and its threshold so that they can be tried again.

@@ -22,8 +22,9 @@ pub struct Run {
 /// Where the template comes from: a name that ends in `html` turns escaping on.
 const TEMPLATE: &str = "page.html";
 
+/// An outcome as the page shows it.
 #[derive(Serialize)]
-struct Claim<'a> {
+struct Shown<'a> {
     id: String,
     check: &'a str,
     anchor: &'a str,
@@ -49,14 +50,14 @@ struct Claim<'a> {
 
 /// A row of the overview: one claim, and for each subject a link to its answer.
 #[derive(Serialize)]
-struct Row<'a> {
+struct OverviewRow<'a> {
     check: &'a str,
-    cells: Vec<Option<Cell>>,
+    cells: Vec<Option<OverviewCell>>,
 }
 
 /// An answer in the overview.
 #[derive(Serialize)]
-struct Cell {
+struct OverviewCell {
     id: String,
     class: &'static str,
     verdict: &'static str,
@@ -64,17 +65,17 @@ struct Cell {
 }
 
 /// Returns the names of the subjects, and the claims in rows over them; nothing where one subject makes a table enough.
-fn overview<'a>(claims: &[Claim<'a>]) -> (Vec<String>, Vec<Row<'a>>) {
-    let name = |claim: &Claim<'a>| format!("{} {}", claim.subject, claim.precision);
+fn overview<'a>(claims: &[Shown<'a>]) -> (Vec<String>, Vec<OverviewRow<'a>>) {
+    let name = |claim: &Shown<'a>| format!("{} {}", claim.subject, claim.precision);
     let mut subjects: Vec<String> = Vec::new();
-    let mut rows: Vec<Row<'a>> = Vec::new();
+    let mut rows: Vec<OverviewRow<'a>> = Vec::new();
     for claim in claims {
         let name = name(claim);
         if !subjects.contains(&name) {
             subjects.push(name);
         }
         if !rows.iter().any(|row| row.check == claim.check) {
-            rows.push(Row { check: claim.check, cells: Vec::new() });
+            rows.push(OverviewRow { check: claim.check, cells: Vec::new() });
         }
     }
     for row in &mut rows {
@@ -84,7 +85,7 @@ fn overview<'a>(claims: &[Claim<'a>]) -> (Vec<String>, Vec<Row<'a>>) {
     if subjects.len() > 1 { (subjects, rows) } else { (Vec::new(), Vec::new()) }
 }
 
-fn cell(claim: &Claim<'_>) -> Cell {
+fn cell(claim: &Shown<'_>) -> OverviewCell {
     let sign = match claim.standing {
         Standing::AsExpected => "✓",
         Standing::Against => "✗",
@@ -92,7 +93,7 @@ fn cell(claim: &Claim<'_>) -> Cell {
         Standing::Unanswered => "?",
         Standing::NotApplicable => "–",
     };
-    Cell { id: claim.id.clone(), class: claim.class, verdict: claim.verdict, sign }
+    OverviewCell { id: claim.id.clone(), class: claim.class, verdict: claim.verdict, sign }
 }
 
 /// Returns the page.
@@ -113,7 +114,7 @@ pub fn page(
     let claims: Vec<_> =
         outcomes.iter().zip(pictures).enumerate().map(|(i, (o, p))| claim(i, o, p)).collect();
     let (subjects, rows) = overview(&claims);
-    let mut listed: Vec<&Claim<'_>> = claims.iter().collect();
+    let mut listed: Vec<&Shown<'_>> = claims.iter().collect();
     // What needs a reader comes first.
     listed.sort_by_key(|claim| claim.standing.min(Standing::AsExpected));
     let (headline, standing) = headline(outcomes);
@@ -132,9 +133,9 @@ pub fn page(
     })
 }
 
-fn claim<'a>(index: usize, outcome: &'a Outcome, picture: Option<&'a str>) -> Claim<'a> {
+fn claim<'a>(index: usize, outcome: &'a Outcome, picture: Option<&'a str>) -> Shown<'a> {
     let (verdict, standing) = (outcome.answer(), outcome.standing());
-    Claim {
+    Shown {
         id: format!("claim-{}", index + 1),
         check: outcome.check,
         anchor: outcome.anchor,

@@ -1,11 +1,10 @@
 //! Values that come up more often than their share.
 
-use crate::check::claim::{Claim, Promise};
-use crate::check::input::cell::at_scale;
-use crate::check::judge::counts::detectable_factor;
+use crate::check::input::at_scale;
+use crate::check::judge::detectable_factor;
 use crate::check::tolerance::{POWER, SINGLE_LEVEL, SPREAD};
-use crate::check::trial::{Attempt, Conclusion, Trial, reject_outsiders};
-use crate::check::{Draw, Evidence, Subject, Verdict};
+use crate::check::trial::reject_outsiders;
+use crate::check::{Attempt, Claim, Conclusion, Draw, Evidence, Promise, Subject, Trial, Verdict};
 use crate::stats::{binomial, power, seed};
 use crate::threshold::footprint::Footprint;
 use glam::{DVec3, dvec3};

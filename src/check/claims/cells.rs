@@ -1,12 +1,10 @@
 //! Cells in odd places: around the origin, far away, and in the mirror.
 
-use crate::check::claim::{Claim, Promise};
 use crate::check::evidence::NamedHistogram;
-use crate::check::input::cell::{at_scale, draw_cell};
-use crate::check::input::sample::UsedCells;
+use crate::check::input::{UsedCells, at_scale, draw_cell};
 use crate::check::tolerance::{BINS, DRAWS_A_SAMPLE, FAMILY_LEVEL, POWER, SINGLE_LEVEL};
-use crate::check::trial::{Attempt, Conclusion, Trial, reject_outsiders};
-use crate::check::{Draw, Evidence, Subject, Verdict};
+use crate::check::trial::reject_outsiders;
+use crate::check::{Attempt, Claim, Conclusion, Draw, Evidence, Promise, Subject, Trial, Verdict};
 use crate::stats::chi_square::{self, ChiSquare};
 use crate::stats::histogram::Histogram;
 use crate::stats::{correlation, ecdf, power, seed};

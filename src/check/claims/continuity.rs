@@ -4,15 +4,14 @@
 //! more than the join allows for the change of the scales; whatever goes beyond is a *pop*. The dithered join is
 //! continuous in law only: it may switch once an octave and axis, at a place of its own in every cell.
 
-use crate::check::claim::{Claim, Promise};
-use crate::check::input::cell::{at_scale, draw_cell, numerator};
-use crate::check::input::sample::{UsedCells, placement};
-use crate::check::input::view::{tangents, tilted, turned, zoomed};
-use crate::check::predict::slope::{largest_change, log_scale, octaves_between};
-use crate::check::subject::{Nominal, Precision};
+use crate::check::input::{
+    UsedCells, at_scale, draw_cell, numerator, placement, tangents, tilted, turned, zoomed,
+};
+use crate::check::predict::{largest_change, log_scale, octaves_between};
+use crate::check::subject::Nominal;
 use crate::check::tolerance::TILT_OCTAVES;
-use crate::check::trial::{Attempt, Conclusion, Trial, describe, detectable_share, reject_outsiders};
-use crate::check::{Draw, Evidence, Subject, Verdict};
+use crate::check::trial::{describe, detectable_share, reject_outsiders};
+use crate::check::{Attempt, Claim, Conclusion, Draw, Evidence, Precision, Promise, Subject, Trial, Verdict};
 use crate::stats::{binomial, seed};
 use crate::threshold::footprint::Footprint;
 use crate::threshold::robust::Join;

@@ -1,12 +1,9 @@
 //! The threshold belongs to a point of the object, wherever that point is and whoever looks.
 
-use crate::check::claim::{Claim, Promise};
-use crate::check::input::motion::Motion;
-use crate::check::input::sample::{general_scenes, placed, placement, sighting};
-use crate::check::judge::equality::{differing, equality};
+use crate::check::input::{Motion, general_scenes, placed, placement, sighting};
+use crate::check::judge::{differing, equality};
 use crate::check::tolerance::EXACT_POINTS;
-use crate::check::trial::{Attempt, Trial};
-use crate::check::{Draw, Subject, Verdict};
+use crate::check::{Attempt, Claim, Draw, Promise, Subject, Trial, Verdict};
 use crate::scene::Fragment;
 
 /// Camera and object move; the point of the object does not.

@@ -3,19 +3,17 @@
 //! A pooled test lets the errors of two surfaces cancel, and a mean says nothing of clumps: neighbouring pixels share
 //! cells, so the coverage of a block of pixels varies more than that of as many coins, by the design effect.
 
-use crate::check::claim::{Claim, Promise};
 use crate::check::evidence::ComparedShare;
-use crate::check::input::patch::Patch;
-use crate::check::input::sample::{general_scenes, independent};
-use crate::check::judge::shares::detectable_error;
-use crate::check::predict::pair_law::PairLaw;
+use crate::check::input::{Patch, general_scenes, independent};
+use crate::check::judge::detectable_error;
+use crate::check::predict::PairLaw;
 use crate::check::subject::Nominal;
-use crate::check::tolerance::{POWER, SINGLE_LEVEL, TILT_STRETCH};
-use crate::check::trial::{Attempt, Conclusion, Trial, reject_outsiders};
-use crate::check::{Draw, Evidence, Subject, Verdict};
+use crate::check::tolerance::TILT_STRETCH;
+use crate::check::trial::reject_outsiders;
+use crate::check::{Attempt, Claim, Conclusion, Draw, Evidence, Promise, Subject, Trial, Verdict};
 use crate::scene::{Fragment, Scene};
+use crate::stats::binomial;
 use crate::stats::variance::Variance;
-use crate::stats::{binomial, power};
 use glam::DVec2;
 
 /// Samples of each surface on which coverage is measured: every share is known to 0.3 %.
@@ -203,11 +201,7 @@ fn judged(groups: &[Blocks]) -> Trial {
         n,
         effect: Some(error(worst)),
         effect_name: "relative error in the variance of coverage",
-        detectable: points
-            .iter()
-            .map(|point| point.sigma)
-            .reduce(f64::max)
-            .map(|sigma| power::detectable_shift_z(sigma, SINGLE_LEVEL / points.len() as f64, POWER)),
+        detectable: detectable_error(&points),
         seen: format!(
             "{}, alpha {}: the coverage of blocks varies {:.2} times as much as predicted",
             worst.series, worst.x, worst.measured

@@ -1,10 +1,8 @@
 //! The threshold is a function: of the fragment alone, and of its derivatives without order or sign.
 
-use crate::check::claim::{Claim, Promise};
-use crate::check::input::sample::fragments_everywhere;
-use crate::check::judge::equality::{differing, equality};
-use crate::check::trial::{Attempt, Trial};
-use crate::check::{Draw, Subject, Verdict};
+use crate::check::input::fragments_everywhere;
+use crate::check::judge::{differing, equality};
+use crate::check::{Attempt, Claim, Draw, Promise, Subject, Trial, Verdict};
 use crate::scene::Fragment;
 use crate::threshold::footprint::Footprint;
 

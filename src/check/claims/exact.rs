@@ -1,11 +1,9 @@
 //! What follows from the listings without any chance: where the threshold changes, and by which formula.
 
-use crate::check::claim::{Claim, Promise};
-use crate::check::input::sample::{Sighting, general_scenes, independent, placement, sighting};
-use crate::check::subject::Precision;
+use crate::check::input::{Sighting, general_scenes, independent, placement, sighting};
 use crate::check::tolerance::{DRAWS_A_PLACE, MEETING};
-use crate::check::trial::{Attempt, Conclusion, Trial, detectable_share};
-use crate::check::{Draw, Evidence, Subject, Verdict};
+use crate::check::trial::detectable_share;
+use crate::check::{Attempt, Claim, Conclusion, Draw, Evidence, Precision, Promise, Subject, Trial, Verdict};
 use crate::scene::Fragment;
 use crate::stats::binomial;
 use crate::stats::seed::uniform01;
@@ -147,18 +145,14 @@ fn formula(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
         largest = largest.max(error);
     }
     let n = samples.len() as u64;
-    Ok(Trial {
-        conclusion: Conclusion::Exact { holds: outside == 0 },
-        statistic: Some(largest),
-        statistic_name: "largest distance from Eq. 2".into(),
+    let first = first.unwrap_or_default();
+    let seen = format!("{outside} of {n} thresholds are not Eq. 2, by up to {largest:.4}{first}");
+    let counted = Trial::counted(
+        outside,
         n,
-        effect: Some(outside as f64 / n as f64),
-        effect_name: "share of thresholds that are not Eq. 2",
-        detectable: Some(detectable_share(n as f64)),
-        seen: format!(
-            "{outside} of {n} thresholds are not Eq. 2, by up to {largest:.4}{}",
-            first.unwrap_or_default()
-        ),
-        evidence: Evidence::None,
-    })
+        "largest distance from Eq. 2",
+        "share of thresholds that are not Eq. 2",
+        seen,
+    );
+    Ok(Trial { statistic: Some(largest), ..counted })
 }

@@ -4,17 +4,15 @@
 //! fewer than by a hard one, by a continuous change as many as the join has to have. E |d tau| is the integral of the
 //! flips over alpha, and so is no claim of its own.
 
-use crate::check::claim::{Claim, Promise};
 use crate::check::evidence::ComparedShare;
-use crate::check::input::motion::Motion;
-use crate::check::input::sample::{general_scenes, placed, placement, sighting};
-use crate::check::input::view::{tangents, tilted, turned, zoomed};
-use crate::check::judge::shares::detectable_error;
-use crate::check::predict::flips::flip_between;
-use crate::check::predict::pair_law::PairLaw;
+use crate::check::input::{
+    Motion, general_scenes, placed, placement, sighting, tangents, tilted, turned, zoomed,
+};
+use crate::check::judge::detectable_error;
+use crate::check::predict::{PairLaw, flip_between};
 use crate::check::tolerance::{ALPHAS, POWER, SINGLE_LEVEL, TILT_OCTAVES, WIDE};
-use crate::check::trial::{Attempt, Conclusion, Trial, reject_outsiders};
-use crate::check::{Draw, Evidence, Subject, Verdict};
+use crate::check::trial::reject_outsiders;
+use crate::check::{Attempt, Claim, Conclusion, Draw, Evidence, Promise, Subject, Trial, Verdict};
 use crate::scene::Fragment;
 use crate::stats::{normal, poisson_binomial, power};
 use crate::threshold::footprint::Footprint;

@@ -1,14 +1,12 @@
 //! Thresholds over the frames of one point, and over the frames of one pixel.
 
-use crate::check::claim::{Claim, Promise};
 use crate::check::evidence::ComparedShare;
-use crate::check::input::sample::{fragments_everywhere, general_scenes, placement, sighting};
-use crate::check::judge::equality::{differing, equality};
-use crate::check::judge::shares::detectable_error;
-use crate::check::predict::pair_law::PairLaw;
+use crate::check::input::{fragments_everywhere, general_scenes, placement, sighting};
+use crate::check::judge::{detectable_error, differing, equality};
+use crate::check::predict::PairLaw;
 use crate::check::tolerance::{ALPHAS, WIDE};
-use crate::check::trial::{Attempt, Conclusion, Trial, detectable_share, reject_outsiders};
-use crate::check::{Draw, Evidence, Subject, Verdict};
+use crate::check::trial::reject_outsiders;
+use crate::check::{Attempt, Claim, Conclusion, Draw, Evidence, Promise, Subject, Trial, Verdict};
 use crate::scene::Fragment;
 use crate::stats::normal;
 use std::collections::HashMap;
@@ -121,7 +119,7 @@ fn stratified(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     }
     let points = general_points(subject, draw.samples(FRAME_POINTS / 8), draw, STRATIFIED.id);
     let stratum = 1.0 / f64::from(subject.frames);
-    let (mut bad, mut largest, mut first) = (0, 0.0_f64, None);
+    let (mut bad, mut largest, mut first) = (0_u64, 0.0_f64, None);
     // From the first frame on, and from one in the middle of a period.
     let halves = points.split_at(points.len() / 2);
     for (points, from) in [(halves.0, 0), (halves.1, 4 * subject.frames + subject.frames / 2)] {
@@ -140,22 +138,15 @@ fn stratified(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
             }
         }
     }
-    let n = points.len() as f64;
-    Ok(Trial {
-        conclusion: Conclusion::Exact { holds: bad == 0 },
-        statistic: Some(largest),
-        statistic_name: "largest error of a distance between neighbouring strata".into(),
-        n: points.len() as u64,
-        effect: Some(f64::from(bad) / n),
-        effect_name: "share of points without every stratum",
-        detectable: Some(detectable_share(n)),
-        seen: format!(
-            "{:.2} % of points do not take each stratum once; first {}",
-            100.0 * f64::from(bad) / n,
-            first.unwrap_or_default()
-        ),
-        evidence: Evidence::None,
-    })
+    let seen = format!(
+        "{:.2} % of points do not take each stratum once; first {}",
+        100.0 * bad as f64 / points.len() as f64,
+        first.unwrap_or_default()
+    );
+    let name = "largest error of a distance between neighbouring strata";
+    let counted =
+        Trial::counted(bad, points.len() as u64, name, "share of points without every stratum", seen);
+    Ok(Trial { statistic: Some(largest), ..counted })
 }
 
 /// A mean that was measured: its expectation, and the standard deviation of the mean.

@@ -1,13 +1,11 @@
 //! The hash of single cells, seen through thresholds at whole octaves, where the other octave has no weight.
 
-use crate::check::claim::{Claim, Promise};
 use crate::check::evidence::NamedHistogram;
-use crate::check::input::cell::{at_scale, draw_cell};
-use crate::check::input::sample::UsedCells;
-use crate::check::judge::counts::detectable_factor;
+use crate::check::input::{UsedCells, at_scale, draw_cell};
+use crate::check::judge::detectable_factor;
 use crate::check::tolerance::{BINS, DRAWS_A_SAMPLE, FAR_PAIRS, PAIR_BINS, POWER, SINGLE_LEVEL};
-use crate::check::trial::{Attempt, Conclusion, Trial, reject_outsiders};
-use crate::check::{Draw, Evidence, Subject, Verdict};
+use crate::check::trial::reject_outsiders;
+use crate::check::{Attempt, Claim, Conclusion, Draw, Evidence, Promise, Subject, Trial, Verdict};
 use crate::stats::histogram::Histogram;
 use crate::stats::{binomial, chi_square, correlation, power};
 use crate::threshold::footprint::Footprint;

@@ -1,10 +1,9 @@
 //! Thresholds of different cells have nothing to do with each other.
 
-use crate::check::claim::{Claim, Promise};
-use crate::check::input::sample::{Sighting, UsedCells, general_scenes, placement, sighting};
+use crate::check::input::{Sighting, UsedCells, general_scenes, placement, sighting};
 use crate::check::tolerance::{DRAWS_A_PLACE, DRAWS_A_SAMPLE, FAR_PAIRS, PAIR_BINS};
-use crate::check::trial::{Attempt, Trial, reject_outsiders};
-use crate::check::{Draw, Evidence, Subject, Verdict};
+use crate::check::trial::reject_outsiders;
+use crate::check::{Attempt, Claim, Draw, Evidence, Promise, Subject, Trial, Verdict};
 use crate::scene::Fragment;
 use crate::stats::{chi_square, correlation};
 use glam::{DVec3, dvec3};

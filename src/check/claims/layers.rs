@@ -1,10 +1,9 @@
 //! Transparent layers one behind the other: each lets its own share through, whatever the others do.
 
-use crate::check::claim::{Claim, Promise};
-use crate::check::input::sample::{UsedCells, general_scenes, placed, placement, sighting};
+use crate::check::input::{UsedCells, general_scenes, placed, placement, sighting};
 use crate::check::tolerance::{DRAWS_A_SAMPLE, PAIR_BINS, PLACEMENT};
-use crate::check::trial::{Attempt, Trial, reject_outsiders};
-use crate::check::{Draw, Evidence, Subject, Verdict};
+use crate::check::trial::reject_outsiders;
+use crate::check::{Attempt, Claim, Draw, Evidence, Promise, Subject, Trial, Verdict};
 use crate::scene::{Fragment, Rectangle, Scene};
 use crate::stats::chi_square::{self, ChiSquare};
 use crate::stats::correlation;

@@ -1,14 +1,13 @@
 //! The size of the noise: how far one has to go along the screen until the threshold changes.
 
-use crate::check::claim::{Claim, Promise};
 use crate::check::evidence::ComparedShare;
-use crate::check::input::patch::{Patch, Start};
+use crate::check::input::{Patch, Start};
 use crate::check::judge::replicate_means;
 use crate::check::judge::replicate_means::Mean;
-use crate::check::predict::redraw::redraw_probability;
+use crate::check::predict::redraw_probability;
 use crate::check::tolerance::TILT_STRETCH;
-use crate::check::trial::{Attempt, Trial, reject_outsiders};
-use crate::check::{Draw, Evidence, Subject, Verdict};
+use crate::check::trial::reject_outsiders;
+use crate::check::{Attempt, Claim, Draw, Evidence, Promise, Subject, Trial, Verdict};
 use glam::DVec2;
 use rand::rngs::Xoshiro256PlusPlus;
 

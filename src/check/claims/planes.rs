@@ -7,13 +7,12 @@
 //! Every sample has a camera and a place of its own, so samples share no more than a choice of octaves; the constant
 //! coordinate stays exact.
 
-use crate::check::claim::{Claim, Promise};
 use crate::check::evidence::ComparedShare;
-use crate::check::input::sample::placement;
-use crate::check::judge::shares::detectable_error;
-use crate::check::predict::redraw::Changes;
-use crate::check::trial::{Attempt, Conclusion, Trial, describe};
-use crate::check::{Draw, Evidence, Subject, Verdict};
+use crate::check::input::placement;
+use crate::check::judge::detectable_error;
+use crate::check::predict::Changes;
+use crate::check::trial::describe;
+use crate::check::{Attempt, Claim, Conclusion, Draw, Evidence, Promise, Subject, Trial, Verdict};
 use crate::scene::{Camera, Fragment, Raster, Rectangle};
 use crate::stats::poisson_binomial;
 use crate::stats::seed::uniform01;

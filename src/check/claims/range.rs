@@ -1,9 +1,8 @@
 //! The range of the threshold, on every surface, with derivatives as they are and as a GPU takes them.
 
-use crate::check::claim::{Claim, Promise};
-use crate::check::input::sample::{placed, placement};
-use crate::check::trial::{Attempt, Conclusion, Trial, describe, detectable_share};
-use crate::check::{Draw, Evidence, Subject, Verdict};
+use crate::check::input::{placed, placement};
+use crate::check::trial::describe;
+use crate::check::{Attempt, Claim, Draw, Promise, Subject, Trial, Verdict};
 use crate::scene::{Fragment, Scene};
 
 /// Pixels of the image over which the range is tried.
@@ -43,15 +42,6 @@ fn range(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
         n += thresholds.len();
         outside += count;
     }
-    Ok(Trial {
-        conclusion: Conclusion::Exact { holds: outside == 0 },
-        statistic: Some(outside as f64),
-        statistic_name: "thresholds outside (0, 1]".into(),
-        n: n as u64,
-        effect: Some(outside as f64 / n as f64),
-        effect_name: "share of footprints",
-        detectable: Some(detectable_share(n as f64)),
-        seen: seen.join("; "),
-        evidence: Evidence::None,
-    })
+    let name = "thresholds outside (0, 1]";
+    Ok(Trial::counted(outside as u64, n as u64, name, "share of footprints", seen.join("; ")))
 }

@@ -1,13 +1,11 @@
 //! Uniformity on one plane at a time: the biases of several planes add up here and do not cancel.
 
-use crate::check::claim::{Claim, Promise};
 use crate::check::evidence::NamedHistogram;
-use crate::check::input::patch::rotation;
-use crate::check::input::sample::independent;
-use crate::check::judge::uniformity::{histogram, uniformity};
+use crate::check::input::{independent, rotation};
+use crate::check::judge::{histogram, uniformity};
 use crate::check::tolerance::BINS;
-use crate::check::trial::{Attempt, Conclusion, Trial, reject_outsiders};
-use crate::check::{Draw, Evidence, Subject, Verdict};
+use crate::check::trial::reject_outsiders;
+use crate::check::{Attempt, Claim, Conclusion, Draw, Evidence, Promise, Subject, Trial, Verdict};
 use crate::scene::{Camera, Rectangle, Scene};
 use crate::stats::chi_square::ChiSquare;
 use glam::{DMat3, DVec3};

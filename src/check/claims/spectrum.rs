@@ -6,16 +6,15 @@
 //! Noise that is constant on cells is not stationary: frequencies whose distance is a frequency of the grid belong
 //! together. So what is tested by a closed law is one image against the next, not one frequency against the next.
 
-use crate::check::claim::{Claim, Promise};
 use crate::check::evidence::ComparedShare;
-use crate::check::input::patch::Patch;
+use crate::check::input::Patch;
 use crate::check::judge::replicate_means;
 use crate::check::judge::replicate_means::Mean;
-use crate::check::predict::pair_law::PairLaw;
+use crate::check::predict::PairLaw;
 use crate::check::subject::Nominal;
 use crate::check::tolerance::{POWER, SINGLE_LEVEL, TILT_STRETCH};
-use crate::check::trial::{Attempt, Conclusion, Trial, reject_outsiders};
-use crate::check::{Draw, Evidence, Subject, Verdict};
+use crate::check::trial::reject_outsiders;
+use crate::check::{Attempt, Claim, Conclusion, Draw, Evidence, Promise, Subject, Trial, Verdict};
 use crate::scene::Fragment;
 use crate::stats::spectrum::{self, Ordinate, SECTORS};
 use crate::stats::{StatsError, autocorrelation, ecdf, fisher_g, power};

@@ -1,13 +1,12 @@
 //! How many thresholds a motion below one pixel changes, against the closed form.
 
-use crate::check::claim::{Claim, Promise};
 use crate::check::evidence::ComparedShare;
-use crate::check::input::sample::{general_scenes, placement, sighting};
-use crate::check::judge::shares::detectable_error;
-use crate::check::predict::redraw::Changes;
+use crate::check::input::{general_scenes, placement, sighting};
+use crate::check::judge::detectable_error;
+use crate::check::predict::Changes;
 use crate::check::tolerance::WIDE;
-use crate::check::trial::{Attempt, Conclusion, Trial, reject_outsiders};
-use crate::check::{Draw, Evidence, Subject, Verdict};
+use crate::check::trial::reject_outsiders;
+use crate::check::{Attempt, Claim, Conclusion, Draw, Evidence, Promise, Subject, Trial, Verdict};
 use crate::scene::Scene;
 
 /// Samples at each shift, screen axis and scene: tells a change of 0.01 in any share at the single level and power.

@@ -1,12 +1,11 @@
 //! The law of the threshold: uniform, whatever the weight and the surface, and only thanks to Eq. 2.
 
-use crate::check::claim::{Claim, Promise};
 use crate::check::evidence::NamedHistogram;
-use crate::check::input::sample::{general_scenes, independent};
-use crate::check::judge::uniformity::{histogram, uniformity};
+use crate::check::input::{general_scenes, independent};
+use crate::check::judge::{histogram, uniformity};
 use crate::check::tolerance::{BINS, DRAWS_A_PLACE, LEAST_GROUP, LERP_GROUPS, POWER, SINGLE_LEVEL};
-use crate::check::trial::{Attempt, Conclusion, Trial, reject_outsiders};
-use crate::check::{Draw, Evidence, Subject, Verdict};
+use crate::check::trial::reject_outsiders;
+use crate::check::{Attempt, Claim, Conclusion, Draw, Evidence, Promise, Subject, Trial, Verdict};
 use crate::scene::Fragment;
 use crate::stats::chi_square::ChiSquare;
 use crate::stats::histogram::Histogram;

@@ -1,7 +1,7 @@
 //! Thresholds that should be equal, bit for bit.
 
-use crate::check::Evidence;
-use crate::check::trial::{Conclusion, Trial, describe, detectable_share};
+use crate::check::Trial;
+use crate::check::trial::describe;
 use crate::scene::Fragment;
 
 /// Whether two answers are one: the same bits, or refused twice.
@@ -11,22 +11,12 @@ fn same(a: f64, b: f64) -> bool {
 
 /// What is told of thresholds that should be equal: how many of `n` points have one that is not, and the first of them.
 pub(crate) fn equality(n: usize, different: usize, first: Option<String>, when: &str) -> Trial {
-    let share = different as f64 / n as f64;
-    Trial {
-        conclusion: Conclusion::Exact { holds: different == 0 },
-        statistic: Some(different as f64),
-        statistic_name: "points with two thresholds".into(),
-        n: n as u64,
-        effect: Some(share),
-        effect_name: "share of points",
-        detectable: Some(detectable_share(n as f64)),
-        seen: format!(
-            "{:.2} % of points have another threshold {when}; first {}",
-            100.0 * share,
-            first.unwrap_or_default()
-        ),
-        evidence: Evidence::None,
-    }
+    let seen = format!(
+        "{:.2} % of points have another threshold {when}; first {}",
+        100.0 * (different as f64 / n as f64),
+        first.unwrap_or_default()
+    );
+    Trial::counted(different as u64, n as u64, "points with two thresholds", "share of points", seen)
 }
 
 /// Counts the points whose thresholds are not equal to the first, and describes the first of them.

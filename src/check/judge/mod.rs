@@ -5,3 +5,8 @@ pub mod equality;
 pub mod replicate_means;
 pub mod shares;
 pub mod uniformity;
+
+pub(crate) use counts::detectable_factor;
+pub(crate) use equality::{differing, equality};
+pub(crate) use shares::detectable_error;
+pub(crate) use uniformity::{histogram, uniformity};

@@ -4,9 +4,8 @@
 //! not depend on each other at all. So each image gives one number whose expectation is known, and Student's law judges
 //! their mean.
 
-use crate::check::Evidence;
 use crate::check::tolerance::{POWER, SINGLE_LEVEL};
-use crate::check::trial::{Conclusion, Trial};
+use crate::check::{Conclusion, Evidence, Trial};
 use crate::stats::variance::Variance;
 use crate::stats::{beta, normal};
 

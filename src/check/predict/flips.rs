@@ -4,8 +4,8 @@
 //! moves changes its threshold is told by [`crate::check::pair`]. Not in the paper; for hashes that are independent and
 //! uniform.
 
+use super::shared_cell::copula_joint_visibility;
 use crate::check::Subject;
-use crate::check::predict::shared_cell::copula_joint_visibility;
 use crate::check::subject::Nominal;
 use crate::threshold::cdf::quantile;
 use crate::threshold::robust::Join;

@@ -4,10 +4,10 @@
 //! the faces of the cells are at uniform places too, so the probabilities of sharing a cell are products of
 //! `max(0, 1 - |v_i| s_i)` over the axes; what is shared then tells how alike the thresholds are. Not in the paper.
 
-use crate::check::Subject;
-use crate::check::predict::shared_cell::{
+use super::shared_cell::{
     copula_correlation, copula_joint_visibility, interpolated_correlation, interpolated_joint_visibility,
 };
+use crate::check::Subject;
 use crate::check::subject::Nominal;
 use crate::threshold::robust::Join;
 use crate::threshold::two_scale::Variant;

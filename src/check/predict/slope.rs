@@ -1,7 +1,7 @@
 //! How far a threshold may move between two views of a point, by the join that a subject claims to have.
 
-use crate::check::Subject;
-use crate::check::subject::{Nominal, Precision};
+use crate::check::subject::Nominal;
+use crate::check::{Precision, Subject};
 use crate::threshold::robust::Join;
 use crate::threshold::two_scale::Variant;
 

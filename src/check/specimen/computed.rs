@@ -6,7 +6,7 @@
 
 use super::ALL;
 use super::defect::Specimen;
-use super::matrix::{KillMatrix, Row};
+use super::matrix::{KillMatrix, Rejections};
 use crate::check::claim::Claim;
 use crate::check::{Budget, Draw, Standing, claims, run_claims};
 use rayon::prelude::*;
@@ -26,7 +26,7 @@ pub fn computed(known: &KillMatrix) -> KillMatrix {
         let rejected: Vec<bool> =
             claims::ALL.par_iter().with_max_len(1).map(|claim| is_rejected(specimen, claim)).collect();
         let claims = claims::ALL.iter().zip(rejected).filter(|(_, rejected)| *rejected);
-        Row { specimen: specimen.name, claims: claims.map(|(claim, _)| claim.id).collect() }
+        Rejections { specimen: specimen.name, claims: claims.map(|(claim, _)| claim.id).collect() }
     };
     KillMatrix { rows: ALL.par_iter().with_max_len(1).map(row).collect() }
 }

@@ -8,12 +8,12 @@ use core::fmt;
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct KillMatrix {
     /// One row a specimen.
-    pub rows: Vec<Row>,
+    pub rows: Vec<Rejections>,
 }
 
 /// The claims that reject one specimen.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Row {
+pub struct Rejections {
     /// Name of the specimen.
     pub specimen: &'static str,
     /// Identifiers of the claims, in the order of the suite.
@@ -29,13 +29,13 @@ impl KillMatrix {
         let rows = COMMITTED
             .lines()
             .filter_map(|line| line.split_once(':'))
-            .map(|(specimen, claims)| Row { specimen, claims: claims.split_whitespace().collect() });
+            .map(|(specimen, claims)| Rejections { specimen, claims: claims.split_whitespace().collect() });
         Self { rows: rows.collect() }
     }
 
     /// Returns the row of a specimen.
     #[must_use]
-    pub fn row(&self, specimen: &str) -> Option<&Row> {
+    pub fn row(&self, specimen: &str) -> Option<&Rejections> {
         self.rows.iter().find(|row| row.specimen == specimen)
     }
 
@@ -49,7 +49,7 @@ impl KillMatrix {
 /// The form in which the matrix is committed: one line a specimen, its name and the claims that reject it.
 impl fmt::Display for KillMatrix {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for Row { specimen, claims } in &self.rows {
+        for Rejections { specimen, claims } in &self.rows {
             writeln!(f, "{specimen}: {}", claims.join(" "))?;
         }
         Ok(())
