@@ -14,17 +14,19 @@
 //! assert_eq!(outcomes[0].standing(), Standing::Against);
 //! ```
 //!
-//! The modules that are hidden from these pages (inputs, closed forms, statistics that claims share, constants) are public for
-//! our own tests alone and outside of semantic versioning.
+//! The modules that are hidden from these pages hold what stands here, or are public for our own tests alone (inputs, closed
+//! forms, statistics that claims share, constants) and outside of semantic versioning.
 //!
 //! What never lives here: statistics themselves ([`crate::stats`]), pictures ([`crate::report`]), printing.
 
+#[doc(hidden)]
 pub mod claim;
 pub mod claims;
 pub mod compare;
 #[doc(hidden)]
 pub mod coordinates;
 pub mod diagnosis;
+#[doc(hidden)]
 pub mod draw;
 pub mod evidence;
 #[doc(hidden)]
@@ -32,12 +34,15 @@ pub mod input;
 #[doc(hidden)]
 pub mod judge;
 pub mod known;
+#[doc(hidden)]
 pub mod outcome;
 #[doc(hidden)]
 pub mod parity;
 #[doc(hidden)]
 pub mod predict;
+#[doc(hidden)]
 pub mod results;
+#[doc(hidden)]
 pub mod run;
 #[cfg(feature = "shader")]
 pub mod shaders;
@@ -45,14 +50,15 @@ pub mod specimen;
 pub mod subject;
 #[doc(hidden)]
 pub mod tolerance;
+#[doc(hidden)]
 pub mod trial;
 
 pub use claim::{Claim, Promise};
 pub use compare::{Agreement, Comparison, compare};
 pub use draw::{Budget, Draw};
-pub use evidence::Evidence;
+pub use evidence::{ComparedShare, Evidence, NamedHistogram};
 pub use known::Known;
-pub use outcome::{Outcome, Standing, Verdict};
+pub use outcome::{Outcome, Standing, Verdict, worst};
 pub use results::{Results, Suite};
 pub use run::{run, run_claims};
 pub use subject::{Precision, Subject};
