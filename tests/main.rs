@@ -26,6 +26,8 @@ mod threads;
 #[cfg(feature = "shader")]
 mod interpreter;
 #[cfg(feature = "shader")]
+mod interpreter_operations;
+#[cfg(feature = "shader")]
 mod own_shader;
 #[cfg(feature = "shader")]
 mod shader_parity;
