@@ -1,5 +1,7 @@
 //! What a claim saw, in the form in which it is drawn.
 
+use crate::stats::histogram::Histogram;
+
 /// Evidence of one claim.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
@@ -41,6 +43,14 @@ pub struct NamedHistogram {
     pub name: String,
     /// Counts in equal bins over [0, 1].
     pub counts: Vec<u64>,
+}
+
+impl NamedHistogram {
+    /// Names what a histogram has counted.
+    #[must_use]
+    pub fn new(name: impl Into<String>, histogram: &Histogram) -> Self {
+        Self { name: name.into(), counts: histogram.counts().to_vec() }
+    }
 }
 
 /// A share that was measured and the one that was predicted for it.

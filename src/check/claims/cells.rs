@@ -2,11 +2,11 @@
 
 use crate::check::evidence::NamedHistogram;
 use crate::check::input::{UsedCells, at_scale, draw_cell};
-use crate::check::tolerance::{BINS, DRAWS_A_SAMPLE, FAMILY_LEVEL, POWER, SINGLE_LEVEL};
+use crate::check::judge::{histogram, uncorrelated};
+use crate::check::tolerance::{DRAWS_A_SAMPLE, FAMILY_LEVEL, POWER, SINGLE_LEVEL};
 use crate::check::trial::reject_outsiders;
 use crate::check::{Attempt, Claim, Conclusion, Draw, Evidence, Promise, Subject, Trial, Verdict};
 use crate::stats::chi_square::{self, ChiSquare};
-use crate::stats::histogram::Histogram;
 use crate::stats::{correlation, ecdf, power, seed};
 use crate::threshold::footprint::Footprint;
 use glam::{DVec3, dvec3};
@@ -120,12 +120,11 @@ fn window(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
             let samples = window_samples(subject, direction * offset, draw.samples(WINDOW_SAMPLES), &mut rng);
             let values = subject.thresholds(&samples);
             reject_outsiders(&samples, &values)?;
-            let mut counts = Histogram::new(BINS);
-            counts.extend(values);
+            let counts = histogram(values);
             let name = format!("{offset} cells along {along}");
             let Ok(test) = chi_square::uniform(counts.counts()) else { continue };
             tests.push(test);
-            evidence.push(NamedHistogram { name, counts: counts.counts().to_vec() });
+            evidence.push(NamedHistogram::new(name, &counts));
         }
     }
     let failed = tests.iter().position(|test| test.p * (tests.len() as f64) < FAMILY_LEVEL);
@@ -205,17 +204,6 @@ fn mirror(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     let Some((found, name)) = worst else {
         return Ok(Trial::without(Conclusion::Exact { holds: false }, "the threshold is a constant"));
     };
-    let tests = SYMMETRIES.len() as f64;
-    let sigma = 1.0 / (found.n as f64 - 1.0).sqrt();
-    Ok(Trial {
-        conclusion: Conclusion::Probability((tests * found.p).min(1.0)),
-        statistic: Some(found.z),
-        statistic_name: "z of the correlation, worst of 3".into(),
-        n: found.n,
-        effect: Some(found.r.abs()),
-        effect_name: "correlation",
-        detectable: Some(power::detectable_shift_z(sigma, SINGLE_LEVEL / tests, POWER)),
-        seen: format!("thresholds of {name} have a correlation of {:+.4}", found.r),
-        evidence: Evidence::None,
-    })
+    let seen = format!("thresholds of {name} have a correlation of {:+.4}", found.r);
+    Ok(uncorrelated(&found, SYMMETRIES.len(), seen))
 }

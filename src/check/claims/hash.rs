@@ -2,12 +2,11 @@
 
 use crate::check::evidence::NamedHistogram;
 use crate::check::input::{UsedCells, at_scale, draw_cell};
-use crate::check::judge::detectable_factor;
-use crate::check::tolerance::{BINS, DRAWS_A_SAMPLE, FAR_PAIRS, PAIR_BINS, POWER, SINGLE_LEVEL};
+use crate::check::judge::{detectable_factor, histogram, uncorrelated};
+use crate::check::tolerance::{DRAWS_A_SAMPLE, FAR_PAIRS, PAIR_BINS};
 use crate::check::trial::reject_outsiders;
 use crate::check::{Attempt, Claim, Conclusion, Draw, Evidence, Promise, Subject, Trial, Verdict};
-use crate::stats::histogram::Histogram;
-use crate::stats::{binomial, chi_square, correlation, power};
+use crate::stats::{binomial, chi_square, correlation};
 use crate::threshold::footprint::Footprint;
 use glam::{DVec3, dvec3};
 use rand::rngs::Xoshiro256PlusPlus;
@@ -125,13 +124,12 @@ fn differences(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
         let values = groups(subject, draw.samples(DIFFERENCE_PAIRS), &mut rng, |cell| {
             [in_cell(subject, cell, 0), in_cell(subject, cell + step, 0)]
         })?;
-        let mut counts = Histogram::new(BINS);
-        counts.extend(values.chunks_exact(2).map(|pair| {
+        let counts = histogram(values.chunks_exact(2).map(|pair| {
             let difference = pair[1] - pair[0];
             difference - difference.floor()
         }));
         tests.extend(chi_square::uniform(counts.counts()));
-        evidence.push(NamedHistogram { name: format!("along {name}"), counts: counts.counts().to_vec() });
+        evidence.push(NamedHistogram::new(format!("along {name}"), &counts));
     }
     let n = tests.iter().map(|test| test.n).sum();
     let seen = "some steps between neighbouring thresholds come up more often than others".into();
@@ -187,17 +185,6 @@ fn resonance(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     let Some((found, [x, y])) = worst else {
         return Ok(Trial::without(Conclusion::Inconclusive, "no distance was tried"));
     };
-    let tests = RESONANCES.len() as f64;
-    let sigma = 1.0 / (found.n as f64 - 1.0).sqrt();
-    Ok(Trial {
-        conclusion: Conclusion::Probability((tests * found.p).min(1.0)),
-        statistic: Some(found.z),
-        statistic_name: format!("z of the correlation, worst of {tests}"),
-        n: found.n,
-        effect: Some(found.r.abs()),
-        effect_name: "correlation",
-        detectable: Some(power::detectable_shift_z(sigma, SINGLE_LEVEL / tests, POWER)),
-        seen: format!("thresholds of cells that are ({x}, {y}) apart have a correlation of {:+.4}", found.r),
-        evidence: Evidence::None,
-    })
+    let seen = format!("thresholds of cells that are ({x}, {y}) apart have a correlation of {:+.4}", found.r);
+    Ok(uncorrelated(&found, RESONANCES.len(), seen))
 }

@@ -85,8 +85,7 @@ fn planes(
             worst_bias = bias;
         }
         let distance = samples.first().map_or(f64::NAN, |sample| sample.footprint.position.dot(turn.z_axis));
-        evidence
-            .push(NamedHistogram { name: format!("{label}{distance:.3}"), counts: counts.counts().to_vec() });
+        evidence.push(NamedHistogram::new(format!("{label}{distance:.3}"), &counts));
     }
     let Some(sum) =
         tests.into_iter().reduce(|a, b| ChiSquare::new(a.statistic + b.statistic, a.dof + b.dof, a.n + b.n))

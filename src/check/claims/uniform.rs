@@ -73,10 +73,7 @@ fn marginal(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     let (_, values) = marginal_samples(subject, &MARGINAL, draw)?;
     let pooled = histogram(values);
     let tests: Vec<_> = uniformity(&pooled).into_iter().collect();
-    let evidence = Evidence::Histograms(vec![NamedHistogram {
-        name: "surfaces in general position".into(),
-        counts: pooled.counts().to_vec(),
-    }]);
+    let evidence = Evidence::Histograms(vec![NamedHistogram::new("surfaces in general position", &pooled)]);
     Ok(Trial::worst_of(&tests, pooled.total(), "the pooled thresholds are not uniform".into(), evidence))
 }
 
@@ -96,10 +93,10 @@ fn coverage(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
             effect_name: "largest error in coverage",
             detectable: Some(power::detectable_distance_ks(n, SINGLE_LEVEL, POWER)),
             seen: format!("coverage is off by up to {:.2} %", 100.0 * distance.d),
-            evidence: Evidence::Histograms(vec![NamedHistogram {
-                name: "surfaces in general position".into(),
-                counts: pooled.counts().to_vec(),
-            }]),
+            evidence: Evidence::Histograms(vec![NamedHistogram::new(
+                "surfaces in general position",
+                &pooled,
+            )]),
         },
     })
 }
@@ -135,10 +132,8 @@ fn uniformity_by_lerp_factor(subject: &Subject<'_>, samples: &[Fragment], values
     let seen = worst.map_or_else(String::new, |(group, test)| {
         format!("{}: chi-square {:.0} over {} dof", name(*group), test.statistic, test.dof)
     });
-    let evidence = tested
-        .iter()
-        .map(|&(group, _)| NamedHistogram { name: name(group), counts: groups[group].counts().to_vec() })
-        .collect();
+    let evidence =
+        tested.iter().map(|&(group, _)| NamedHistogram::new(name(group), &groups[group])).collect();
     let tests: Vec<_> = tested.iter().map(|&(_, test)| test).collect();
     Trial::worst_of(&tests, tests.iter().map(|test| test.n).sum(), seen, Evidence::Histograms(evidence))
 }
