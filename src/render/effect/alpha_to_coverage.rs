@@ -47,8 +47,8 @@ impl Effect for AlphaToCoverage {
     fn rules(&self) -> Rules {
         let rules = Rules::of(&[Role::Test, Role::Samples, Role::Varied]).samples(self.samples);
         match self.pattern {
-            SamplePattern::Independent => rules.needs(Role::Fresh),
-            pattern if pattern.uses_source() => rules.needs(Role::Noise),
+            SamplePattern::Independent => rules.needs(Role::Fresh, "thresholds that are drawn anew"),
+            pattern if pattern.uses_source() => rules.needs(Role::Noise, "a hashed or random threshold"),
             _ => rules.never(Role::Threshold, "that pattern needs no threshold"),
         }
     }

@@ -1,6 +1,6 @@
 //! The mean of the latest frames (§7.2).
 
-use super::kind::{About, Bound, Cost, Effect, Per, Plan, Rules, Text, tell};
+use super::kind::{About, Bound, Cost, Effect, Per, Plan, Text, tell};
 use crate::render::measure::picture::Picture;
 use core::num::NonZeroU32;
 use serde::Deserialize;
@@ -20,10 +20,6 @@ impl Effect for Average {
         "samples: one blend a pixel and frame",
     )
     .bounds(&[("frames", Bound::CYCLE)]);
-
-    fn rules(&self) -> Rules {
-        Rules::default()
-    }
 
     fn plan(&self, plan: &mut Plan) {
         let frames = self.frames.get() as usize;

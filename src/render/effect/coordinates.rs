@@ -16,7 +16,7 @@ impl Effect for Coordinates {
     const ABOUT: About = About::new("§5.2, §5.3", "Hashes in other than object coordinates", "nothing");
 
     fn rules(&self) -> Rules {
-        Rules::default().needs(Role::Hash)
+        Rules::default().needs(Role::Hash, "a hashed threshold")
     }
 
     fn plan(&self, plan: &mut Plan) {

@@ -37,7 +37,7 @@ impl Effect for FadeIn {
             ]);
 
     fn rules(&self) -> Rules {
-        Rules::default().needs(Role::Noise)
+        Rules::default().needs(Role::Noise, "a hashed or random threshold")
     }
 
     fn plan(&self, plan: &mut Plan) {

@@ -38,7 +38,7 @@ impl Effect for Independent {
             ]);
 
     fn rules(&self) -> Rules {
-        Rules::default().needs(Role::Hash)
+        Rules::default().needs(Role::Hash, "a hashed threshold")
     }
 
     fn check(&self, plan: &Plan) -> Result<(), Diagnostic> {

@@ -1,6 +1,6 @@
 //! A camera that moves within a pixel (§7.2): [`jitter`](crate::technique::jitter).
 
-use super::kind::{About, Bound, Effect, Plan, Rules, Text, techniques, tell};
+use super::kind::{About, Bound, Effect, Plan, Text, techniques, tell};
 use core::num::NonZeroU32;
 use serde::Deserialize;
 
@@ -19,10 +19,6 @@ impl Effect for Jitter {
             "camera-jitter": "§7.2", "temporal-noise" / "noise of 1 pixel",
                 "Averaged frames see different places within a pixel.";
         ]);
-
-    fn rules(&self) -> Rules {
-        Rules::default()
-    }
 
     fn plan(&self, plan: &mut Plan) {
         let says = format!("jitter: the camera at another of {} places in the pixel each frame", self.frames);

@@ -17,9 +17,10 @@ pub trait Effect: Clone + Debug + PartialEq + DeserializeOwned {
     /// What is known of it without looking at a scene.
     const ABOUT: About;
 
-    /// Says what it is to other effects, and what it does not go with.
-    fn rules(&self) -> Rules;
-
+    /// Says what it is to other effects, and what it does not go with. By default it is nothing to them and goes with all.
+    fn rules(&self) -> Rules {
+        Rules::default()
+    }
     /// Finds what is wrong with its values, in the plan of the whole set: the key within its table, and what.
     ///
     /// # Errors
@@ -137,30 +138,13 @@ impl Role {
             Self::Samples | Self::Pixels | Self::Blends | Self::SecondPass => None,
         }
     }
-
-    /// The role in a message.
-    const fn words(self) -> &'static str {
-        match self {
-            Self::Threshold => "a threshold",
-            Self::Noise => "a hashed or random threshold",
-            Self::Hash => "a hashed threshold",
-            Self::Fresh => "thresholds that are drawn anew",
-            Self::Test => "an alpha test",
-            Self::Varied => "thresholds that differ",
-            Self::Level | Self::Finest => "a coarsest level",
-            Self::Scale => "scaled alphas",
-            Self::Samples => "several tests in a pixel",
-            Self::Pixels => "whole pixels",
-            Self::Blends | Self::SecondPass => "blending",
-        }
-    }
 }
 
 /// What an effect is to others, what it needs, and what it does not go with.
 #[derive(Clone, Debug, Default)]
 pub struct Rules {
     is: Vec<Role>,
-    needs: Vec<Role>,
+    needs: Vec<(Role, &'static str)>,
     never: Vec<(Role, &'static str)>,
     samples: Option<NonZeroU32>,
 }
@@ -172,10 +156,10 @@ impl Rules {
         Self { is: is.to_vec(), ..Self::default() }
     }
 
-    /// The same with the need for another effect of a role.
+    /// The same with the need for another effect of a role, in words.
     #[must_use]
-    pub fn needs(mut self, role: Role) -> Self {
-        self.needs.push(role);
+    pub fn needs(mut self, role: Role, words: &'static str) -> Self {
+        self.needs.push((role, words));
         self
     }
 
@@ -216,10 +200,9 @@ impl Rules {
                     return Err(Diagnostic::new(*name, message));
                 }
             }
-            if let Some(lacking) =
-                rules.needs.iter().find(|role| !all.iter().any(|(_, of)| of.is.contains(role)))
-            {
-                let message = format!("`{name}` needs {}, which no other effect gives", lacking.words());
+            let is_there = |role: &Role| all.iter().any(|(_, of)| of.is.contains(role));
+            if let Some((_, words)) = rules.needs.iter().find(|(role, _)| !is_there(role)) {
+                let message = format!("`{name}` needs {words}, which no other effect gives");
                 return Err(Diagnostic::new(*name, message));
             }
         }

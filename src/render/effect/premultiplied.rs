@@ -1,6 +1,6 @@
 //! Colours multiplied by alpha (§7.3): [`premultiplied`](crate::technique::premultiplied).
 
-use super::kind::{About, Effect, Plan, Rules, Text, techniques, tell};
+use super::kind::{About, Effect, Plan, Text, techniques, tell};
 use serde::Deserialize;
 
 /// Colours multiplied by alpha.
@@ -18,10 +18,6 @@ impl Effect for Premultiplied {
         "premultiplied-alpha": "§7.3", "halo" / "premultiplied",
             "Premultiplied colours leave no halo and need a divide.";
     ]);
-
-    fn rules(&self) -> Rules {
-        Rules::default()
-    }
 
     fn plan(&self, plan: &mut Plan) {
         let says = "premultiply: colours multiplied by alpha when stored, divided after filtering";

@@ -44,7 +44,7 @@ impl Effect for Sharpened {
     ]);
 
     fn rules(&self) -> Rules {
-        Rules::of(&[Role::Test]).needs(Role::Samples)
+        Rules::of(&[Role::Test]).needs(Role::Samples, "several tests in a pixel")
     }
 
     fn plan(&self, plan: &mut Plan) {

@@ -1,6 +1,6 @@
 //! Several places of each pixel at which everything is done, and their mean (§3).
 
-use super::kind::{About, Bound, Effect, Plan, Rules, Text, techniques, tell};
+use super::kind::{About, Bound, Effect, Plan, Text, techniques, tell};
 use crate::render::draw::work::Frame;
 use core::num::NonZeroU32;
 use serde::Deserialize;
@@ -24,10 +24,6 @@ impl Effect for Supersampling {
         "supersampling": "§3", "blending" / "supersampled",
             "Enough samples of binary alpha give accurate visibility; the number needed has no bound.";
     ]);
-
-    fn rules(&self) -> Rules {
-        Rules::default()
-    }
 
     fn plan(&self, plan: &mut Plan) {
         let side = self.samples.get();

@@ -43,7 +43,7 @@ impl Effect for Temporal {
     ]);
 
     fn rules(&self) -> Rules {
-        Rules::default().needs(Role::Noise)
+        Rules::default().needs(Role::Noise, "a hashed or random threshold")
     }
 
     fn plan(&self, plan: &mut Plan) {

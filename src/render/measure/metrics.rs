@@ -57,7 +57,6 @@ pub struct Measured {
     regions: Vec<Region>,
     depth: Option<DepthBuffer>,
     sums: Sums,
-    mean_of_first: Option<Picture>,
 }
 
 #[derive(Clone, Debug, Default)]
@@ -84,7 +83,8 @@ struct Sums {
     layers: Option<LayerSums>,
     /// Coverage and that of the truth, within the circle around the gaze and outside.
     gaze: Option<[[f64; 2]; 2]>,
-    mean: Option<Picture>,
+    /// Coverage of all frames.
+    mean: Vec<f32>,
 }
 
 #[derive(Clone, Debug, Default)]
@@ -189,14 +189,8 @@ impl Measured {
             errors.ssim += similarity(picture, truth);
             errors.mean.iter_mut().zip(&truth.coverage).for_each(|(sum, share)| *sum += share);
         }
-        match &mut sums.mean {
-            None => sums.mean = Some(picture.clone()),
-            Some(mean) => {
-                mean.coverage.iter_mut().zip(&picture.coverage).for_each(|(sum, share)| *sum += share);
-                let colours = mean.colour.as_flattened_mut().iter_mut();
-                colours.zip(picture.colour.as_flattened()).for_each(|(sum, share)| *sum += share);
-            }
-        }
+        sums.mean.resize(picture.coverage.len(), 0.0);
+        sums.mean.iter_mut().zip(&picture.coverage).for_each(|(sum, share)| *sum += share);
     }
 
     /// Ends a shot and writes what it showed.
@@ -260,24 +254,8 @@ impl Measured {
             put("rmse", errors.rmse / frames);
             put("rmse_coverage", errors.rmse_coverage / frames);
             put("ssim", errors.ssim / frames);
-            if let Some(mean) = &sums.mean {
-                put("rmse_of_mean", root_mean_square(&mean.coverage, &errors.mean) / frames);
-            }
+            put("rmse_of_mean", root_mean_square(&sums.mean, &errors.mean) / frames);
         }
-        if self.shots == 1 {
-            self.mean_of_first = sums.mean.map(|mut mean| {
-                let share = 1.0 / frames as f32;
-                mean.coverage.iter_mut().for_each(|sum| *sum *= share);
-                mean.colour.as_flattened_mut().iter_mut().for_each(|sum| *sum *= share);
-                mean
-            });
-        }
-    }
-
-    /// Returns the mean of the frames of the first shot; a picture of no size before its end.
-    #[must_use]
-    pub fn mean_of_first_shot(&self) -> Picture {
-        self.mean_of_first.clone().unwrap_or_default()
     }
 }
 

@@ -27,8 +27,6 @@ pub struct Take {
     pub cost: Cost,
     /// What was measured.
     pub metrics: Metrics,
-    /// The mean of the first shot's frames.
-    pub mean: Picture,
     /// The index of the frame that is shown: the first, or the last if a take of the scene averages frames.
     pub frame: u32,
     /// That frame of every shot with all motion: of the scene as it is, and from each other distance.
@@ -135,7 +133,7 @@ pub fn study(scene: &Scene, progress: &mut dyn FnMut(u64, u64)) -> Study {
             measured.end(shot, &mut take.metrics);
         }
     }
-    let takes: Vec<Take> = takes.into_iter().map(|(take, measured)| take.finish(&measured)).collect();
+    let takes: Vec<Take> = takes.into_iter().map(|(take, _)| take).collect();
     let numbers: Vec<(&str, &Metrics)> =
         takes.iter().map(|take| (take.plan.name.as_str(), &take.metrics)).collect();
     let checked = scene.file.expect.iter().map(|expectation| check(expectation, &numbers)).collect();
@@ -177,7 +175,6 @@ impl Take {
             plan,
             cost: Cost::default(),
             metrics: Metrics::default(),
-            mean: Picture::default(),
             frame,
             shown: Vec::new(),
             beside: None,
@@ -222,11 +219,6 @@ impl Take {
             gaze: self.plan.setup.gaze,
         };
         measured.add(&frame, truth, asked);
-    }
-
-    fn finish(mut self, measured: &Measured) -> Self {
-        self.mean = measured.mean_of_first_shot();
-        self
     }
 
     /// Returns the inverted difference of the shown frame and the one beside it; `None` for a still.
