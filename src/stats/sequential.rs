@@ -1,6 +1,6 @@
 //! A family of tests that may ask again: rejection at one overall level, with fresh data for what is suspect.
 //!
-//! A single round has to choose between missing what it nearly saw and a level at which it cries wolf. Here a
+//! A single round has to choose: a strict level misses small defects, a loose one raises false alarms. Here a
 //! round rejects, clears, or calls suspect; only suspects go to the next round, on fresh inputs and
 //! [`GROWTH`] times as many of them.
 //!
