@@ -10,9 +10,11 @@ mod architecture;
 mod batch;
 mod calibration;
 mod compare;
+mod constants;
 mod coordinates;
 mod emulated;
 mod exhaustive;
+mod extension_claims;
 mod golden;
 mod names;
 mod oracle;
@@ -24,6 +26,8 @@ mod threads;
 
 #[cfg(feature = "shader")]
 mod interpreter;
+#[cfg(feature = "shader")]
+mod interpreter_operations;
 #[cfg(feature = "shader")]
 mod own_shader;
 #[cfg(feature = "shader")]

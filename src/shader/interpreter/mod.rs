@@ -222,6 +222,3 @@ impl Program {
         Ok(())
     }
 }
-
-#[cfg(test)]
-mod tests;
