@@ -21,6 +21,7 @@ pub trait Effect: Clone + Debug + PartialEq + DeserializeOwned {
     fn rules(&self) -> Rules {
         Rules::default()
     }
+
     /// Finds what is wrong with its values, in the plan of the whole set: the key within its table, and what.
     ///
     /// # Errors
