@@ -763,7 +763,7 @@ fn a_scene_of_the_gallery_is_a_file_to_start_from() {
     let small = ["--resolution", "45x35", "--frames", "2"];
     let explained = succeed(&[&["explain", file.to_str().unwrap(), "--shader"][..], &small].concat(), "");
     for word in
-        ["runs     hash: isotropic listing", "costs    2 frames", "fn threshold(", "runs not supersampling"]
+        ["runs     hash: isotropic listing", "costs    2 frames", "fn threshold(", "skipped  supersampling"]
     {
         assert!(explained.contains(word), "{word}: {explained}");
     }
