@@ -141,7 +141,7 @@ proptest! {
     #[test]
     fn a_new_coarse_cell_is_a_new_fine_cell(here in vector(1000.0), motion in vector(0.01), octave in -4..8_i32) {
         let cells = |position: DVec3| {
-            [0, 1].map(|finer| scales::cell::<f64>(position, [octave + finer; 3], Repairs::ALL).index)
+            [0, 1].map(|finer| scales::nested_cell::<f64>(position, [octave + finer; 3], Repairs::ALL).index)
         };
         let ([coarse, fine], [coarse_after, fine_after]) = (cells(here), cells(here + motion));
         prop_assert!(coarse == coarse_after || fine != fine_after, "{here} {motion}");

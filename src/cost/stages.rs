@@ -1,10 +1,10 @@
 //! The stages of the hash alone: sine, logarithm, hash of a cell.
 
+use super::baseline;
 use super::clock::Contender;
 use super::double_double::{DoubleDouble, RealSine};
-use super::ladder::{Entry, Row};
 use super::pool::SLICE;
-use super::{baseline, ladder};
+use super::row::{Entry, Row, real_hash};
 use crate::stats::seed;
 use crate::threshold::batch::{Isa, Tier};
 use crate::threshold::hash::{Cell, Hash, HashKind};
@@ -187,7 +187,7 @@ fn hash<'a>(
     for (i, &value) in out.iter().enumerate() {
         let cell = Cell { index: glam::vec3(x[i], y[i], z[i]), octave: inputs.words[i] };
         let rounded: f32 = kind.hash(&cell);
-        let exact: f32 = ladder::real_hash(kind, &cell);
+        let exact: f32 = real_hash(kind, &cell);
         same += usize::from(rounded.to_bits() == value.to_bits());
         error += f64::from((value - exact).abs());
     }

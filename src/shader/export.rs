@@ -5,7 +5,8 @@
 //! survive in every language.
 
 use super::assemble::{AssembleError, HashScale, ShaderOptions, assemble};
-use crate::threshold::hash::{HashKind, UnknownName, by_name};
+use crate::threshold::choice::{UnknownName, by_name};
+use crate::threshold::hash::HashKind;
 use crate::threshold::hashed::HashedAlpha;
 use crate::threshold::model::Model;
 use crate::threshold::pipeline::{

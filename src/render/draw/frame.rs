@@ -19,7 +19,7 @@ use crate::technique::prior_work::test_then_blend::{naive, test_then_blend};
 use crate::threshold::batch::{Batch, Model};
 use crate::threshold::fixed::{FIXED_THRESHOLD, passes};
 use crate::threshold::footprint::Footprint;
-use crate::threshold::hash::{Hash, HashKind, integer::pcg4d, open_lattice};
+use crate::threshold::hash::{Hash, HashKind, open_lattice, pcg4d::pcg4d};
 use crate::threshold::hashed::HashedAlpha;
 use crate::threshold::robust::Robust;
 use crate::threshold::stage::clamp::clamp_last;

@@ -6,22 +6,13 @@
 //! outlives a choice, a variable, is written under the mask.
 
 use super::kernel;
+use super::lanes::{Column, LANES, Lanes};
 use super::model::DeviceModel;
 use super::op::{Block, Case, Op, Register, Step};
-use crate::threshold::batch::{BLOCK, Isa, isa::Job};
+use crate::threshold::batch::{Isa, isa::Job};
 use core::cell::Cell;
 use core::sync::atomic::{AtomicU64, Ordering};
 use naga::Span;
-
-/// Lanes of a block.
-pub(super) const LANES: usize = BLOCK;
-
-/// A set of lanes.
-pub(super) type Lanes = u128;
-const _: () = assert!(LANES == Lanes::BITS as usize, "one bit a lane");
-
-/// One word a lane.
-pub(super) type Column = [Cell<u32>; LANES];
 
 /// A loop that ran when the steps were used up: the one with the most rounds of those around that point.
 #[derive(Clone, Copy, Debug)]

@@ -1,6 +1,6 @@
 //! What the robust threshold does differently, each difference by its name.
 
-use crate::threshold::hash::{UnknownName, by_name};
+use crate::threshold::choice::{UnknownName, by_name};
 use core::fmt;
 use core::str::FromStr;
 

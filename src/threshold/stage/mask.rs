@@ -91,7 +91,7 @@ pub fn by_pixel<R: Real>(alpha: R, n: NonZeroU32, pixel: [u32; 2]) -> Mask {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::threshold::hash::{integer::murmur3, open_lattice};
+    use crate::threshold::hash::{mm4::murmur3, open_lattice};
 
     fn n(samples: u32) -> NonZeroU32 {
         NonZeroU32::new(samples).unwrap()

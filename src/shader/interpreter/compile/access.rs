@@ -1,7 +1,7 @@
 //! Variables, and the parts of variables and values.
 
-use super::super::Open;
 use super::super::error::Unsupported;
+use super::super::oddity::Open;
 use super::super::op::{Binary, Op, Register, Unary};
 use super::{Compiler, Operand, Place, Scope, Value};
 use naga::{AddressSpace, Expression, GlobalVariable, Handle, Span};

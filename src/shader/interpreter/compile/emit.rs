@@ -1,8 +1,9 @@
 //! Operations, one a function; each gives its result a register of its own.
 
 use super::super::error::Unsupported;
+use super::super::oddity::Open;
 use super::super::op::{Binary, Contracted, Op, Product, Register, Unary};
-use super::super::{Constant, Open};
+use super::super::program::Constant;
 use super::{Compiler, MOST_OPERATIONS, MOST_REGISTERS, Value};
 use naga::Span;
 

@@ -14,9 +14,11 @@ mod operator;
 mod statement;
 mod types;
 
+use super::columns::Kind;
 use super::error::Unsupported;
+use super::oddity::Open;
 use super::op::{Block, Product, Register};
-use super::{Constant, Kind, Open, Parameter, Program};
+use super::program::{Constant, Parameter, Program};
 use core::sync::atomic::AtomicU64;
 use naga::valid::{FunctionInfo, ModuleInfo};
 use naga::{Arena, Expression, Function, GlobalVariable, Handle, Module, Override, Span, TypeInner};

@@ -1,7 +1,7 @@
 //! Unary and binary operators.
 
-use super::super::Open;
 use super::super::error::Unsupported;
+use super::super::oddity::Open;
 use super::super::op::{Binary, Register, Unary};
 use super::expression::is_matrix;
 use super::types::scalar_kind;
