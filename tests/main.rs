@@ -15,6 +15,8 @@ mod emulated;
 mod exhaustive;
 mod extension_hashes;
 mod golden;
+#[path = "sentences/mask.rs"]
+mod mask;
 mod names;
 mod namesakes;
 mod oracle;

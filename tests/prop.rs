@@ -10,7 +10,8 @@ use hashed_alpha::threshold::hashed::{HashedAlpha, SMALLEST_THRESHOLD};
 use hashed_alpha::threshold::robust::{Join, Repairs, Robust, scales};
 use hashed_alpha::threshold::stage::fade_in::fade_in;
 use hashed_alpha::threshold::stage::order::Order;
-use hashed_alpha::threshold::stage::{mask, screen_door};
+use crate::mask;
+use hashed_alpha::threshold::stage::screen_door;
 use hashed_alpha::threshold::two_scale::Variant;
 use proptest::prelude::*;
 

@@ -3,7 +3,7 @@
 use super::clock::{Contender, race};
 use super::law::{Evaluate, Samples};
 use super::pool::{COARSE, Pool, SLICE, WIDE};
-use super::row::{Entry, LITERAL, ROBUST, Row, STD, real_hash};
+use super::row::{LITERAL, ROBUST, Row, STD, Untimed, real_hash};
 use super::stages::{StageInputs, stages};
 use super::{Effort, baseline, sizes};
 use crate::threshold::batch::{Batch, Bins, ColumnBuffer, Isa, Lane, Model, Tier};
@@ -64,7 +64,7 @@ impl Judge {
     }
 
     /// A threshold in vector instructions.
-    fn batch<'a, R: Lane>(&self, name: &'static str, batch: Batch, pool: &'a Pool<R>) -> Entry<'a> {
+    fn batch<'a, R: Lane>(&self, name: &'static str, batch: Batch, pool: &'a Pool<R>) -> Untimed<'a> {
         let evaluate = move |footprints: &[Footprint<f64>]| {
             let columns: ColumnBuffer<R> = footprints.iter().map(|footprint| footprint.cast()).collect();
             let mut out = vec![R::from_f64(0.0); footprints.len()];
@@ -80,7 +80,7 @@ impl Judge {
             out[slice % SLICE].to_f64()
         };
         let touch = move |slice| pool.touch_columns(slice);
-        Entry {
+        Untimed {
             row: self.row(row, &batch.model, &evaluate),
             contender: Contender { items: SLICE, run: Box::new(run), touch: Box::new(touch) },
         }
@@ -93,7 +93,7 @@ impl Judge {
         model: Model,
         pool: &'a Pool<R>,
         threshold: impl Fn(&Footprint<R>) -> R + Copy + Sync + 'a,
-    ) -> Entry<'a> {
+    ) -> Untimed<'a> {
         let evaluate = move |footprints: &[Footprint<f64>]| {
             footprints.iter().map(|footprint| threshold(&footprint.cast()).to_f64()).collect()
         };
@@ -106,14 +106,14 @@ impl Judge {
             out[slice % SLICE].to_f64()
         };
         let touch = move |slice| pool.touch_footprints(slice);
-        Entry {
+        Untimed {
             row: self.row(row, &model, &evaluate),
             contender: Contender { items: SLICE, run: Box::new(run), touch: Box::new(touch) },
         }
     }
 
     /// Whole thresholds in every tier, and the statistical axis.
-    fn thresholds<'a>(&self, pools: &'a Pools, done: &dyn Fn()) -> Vec<Entry<'a>> {
+    fn thresholds<'a>(&self, pools: &'a Pools, done: &dyn Fn()) -> Vec<Untimed<'a>> {
         let Pools { single, double, coarse } = pools;
         let best = Isa::best();
         let exact = Tier::BitExact;
@@ -182,7 +182,7 @@ const STREAMED: usize = 1 << 21;
 /// Thresholds of footprints that are made as they are needed, on one and two threads, seen or counted in bins.
 ///
 /// No rows where threads cannot be had.
-fn streamed<'a>() -> Vec<Entry<'a>> {
+fn streamed<'a>() -> Vec<Untimed<'a>> {
     let mut entries = Vec::new();
     for threads in [1, 2] {
         for binned in [false, true] {
@@ -209,7 +209,7 @@ fn streamed<'a>() -> Vec<Entry<'a>> {
                 bins.counts()[0] as f64
             };
             let contender = Contender { items: STREAMED, run: Box::new(run), touch: Box::new(|_| 0.0) };
-            entries.push(Entry { row, contender });
+            entries.push(Untimed { row, contender });
         }
     }
     entries

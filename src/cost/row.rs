@@ -99,7 +99,7 @@ pub const ROBUST: &str = "robust";
 pub(super) const STD: &str = "std";
 
 /// A row that is still to be timed.
-pub(super) struct Entry<'a> {
+pub(super) struct Untimed<'a> {
     pub row: Row,
     pub contender: Contender<'a>,
 }

@@ -22,6 +22,7 @@ use naga::{Block, EntryPoint, Function, Module, ShaderStage, Statement};
 
 /// A shading language.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Language {
     /// WGSL.
     Wgsl,
@@ -75,6 +76,7 @@ impl FromStr for Language {
 
 /// Options that cannot be said in a language.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ExportError {
     /// There is no text in any.
     #[error(transparent)]

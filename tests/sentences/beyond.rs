@@ -18,7 +18,7 @@ use hashed_alpha::threshold::hash::sine::Sine;
 use hashed_alpha::threshold::hash::sine_chi_2::SineChi2;
 use hashed_alpha::threshold::hash::{Cell, Hash};
 use hashed_alpha::threshold::real::Real;
-use hashed_alpha::threshold::stage::mask;
+use crate::mask;
 use hashed_alpha::threshold::stage::order::Order;
 use hashed_alpha::threshold::two_scale::Variant::{self, Anisotropic, Isotropic};
 use std::sync::OnceLock;

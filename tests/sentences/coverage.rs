@@ -7,7 +7,7 @@ use core::num::NonZeroU32;
 use hashed_alpha::technique::premultiplied::{Rgba, divide, filtered, premultiply};
 use hashed_alpha::threshold::hash::mm4::murmur3;
 use hashed_alpha::threshold::stage::coverage::{decorrelated_literal, regular};
-use hashed_alpha::threshold::stage::mask::{self, Mask};
+use crate::mask::{self, Mask};
 use hashed_alpha::threshold::stage::screen_door;
 
 pub const ROWS: &[Row] = &[

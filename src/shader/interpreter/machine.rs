@@ -25,7 +25,7 @@ pub(super) struct Endless {
 pub(super) struct Machine<'a> {
     pub(super) registers: Vec<Column>,
     model: &'a DeviceModel,
-    /// How many lanes every oddity has been seen in, by all threads.
+    /// How many lanes every undefined behaviour has been seen in, by all threads.
     counts: &'a [AtomicU64],
     /// The lanes that are asked for; those behind the last one repeat it.
     pub(super) wanted: Lanes,
@@ -199,10 +199,10 @@ impl<'a> Machine<'a> {
                     column(register)[lane].set(column(from)[lane].get());
                 }
             }
-            Op::Count { odd, oddity } => {
+            Op::Count { odd, met } => {
                 let lanes = kernel::lanes(column(odd), |word| word) & active & self.wanted;
                 if lanes != 0 {
-                    self.counts[oddity].fetch_add(u64::from(lanes.count_ones()), Ordering::Relaxed);
+                    self.counts[met].fetch_add(u64::from(lanes.count_ones()), Ordering::Relaxed);
                 }
             }
         }

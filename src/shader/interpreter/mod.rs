@@ -31,7 +31,7 @@
 //! from the others, as [`Real`](crate::threshold::real::Real) does. `fract` is `x - floor(x)` and can be 1. `fma`
 //! rounds once. `pow` of a negative number is NaN. Sums run from left to right. Of integers `x / 0` is `x`, `x % 0`
 //! is 0, overflow wraps, and a shift takes the distance modulo 32. Lanes with an index out of range, or an integer that is
-//! divided by zero, are counted ([`Program::oddities`]).
+//! divided by zero, are counted ([`Program::undefined`]).
 //!
 //! **It ends**: a block of lanes has a number of steps ([`Program::steps`]); a loop that uses them up stops the run
 //! and is named ([`Stopped::Endless`]).
@@ -43,15 +43,15 @@ mod kernel;
 mod lanes;
 mod machine;
 mod model;
-mod oddity;
 mod op;
 mod program;
+mod undefined;
 
 pub use columns::{Column, Kind, Values};
 pub use error::{Stopped, Unsupported};
 pub use model::DeviceModel;
-pub use oddity::{Oddity, Open};
 pub use program::{Parameter, Program};
+pub use undefined::{Undefined, UndefinedKind};
 
 use core::ops::Not;
 use core::sync::atomic::Ordering;
@@ -87,13 +87,13 @@ impl Program {
 
     /// Returns what all runs so far met that the shading languages leave open, in the order of the function.
     #[must_use]
-    pub fn oddities(&self) -> Vec<Oddity> {
-        let found = self.oddities.iter().zip(&*self.counts).map(|(&(open, span), count)| Oddity {
-            open,
+    pub fn undefined(&self) -> Vec<Undefined> {
+        let found = self.undefined.iter().zip(&*self.counts).map(|(&(kind, span), count)| Undefined {
+            kind,
             span,
             lanes: count.load(Ordering::Relaxed),
         });
-        found.filter(|oddity| oddity.lanes > 0).collect()
+        found.filter(|met| met.lanes > 0).collect()
     }
 
     /// Runs the function on lanes `0..lanes` and returns one column a scalar of the result.

@@ -1,8 +1,8 @@
 //! A function that is ready to run.
 
 use super::columns::Kind;
-use super::oddity::Open;
 use super::op::{Block, Register};
+use super::undefined::UndefinedKind;
 use core::sync::atomic::AtomicU64;
 use naga::Span;
 use std::sync::Arc;
@@ -21,7 +21,7 @@ pub struct Program {
     pub(super) body: Block,
     pub(super) registers: usize,
     /// What can happen where, and in how many lanes it did; clones count together.
-    pub(super) oddities: Vec<(Open, Span)>,
+    pub(super) undefined: Vec<(UndefinedKind, Span)>,
     pub(super) counts: Arc<[AtomicU64]>,
 }
 

@@ -4,11 +4,11 @@
 //! engines write it, see the list in `glsl/prepare.rs`. SPIR-V is read so that what is exported can be read back. Of a module
 //! only the function and what it calls is kept; uniforms and overrides that it reads get the values that the user gives.
 
+mod arguments;
 mod blocks;
 mod body;
 mod derivative;
 mod error;
-mod feed;
 mod front;
 mod glsl;
 mod invalid;

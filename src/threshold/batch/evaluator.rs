@@ -1,9 +1,10 @@
 //! A model, evaluated by the thousand.
 
-use super::columns::Columns;
+use super::columns::{ColumnBuffer, Columns};
 use super::isa::Isa;
 use super::tier::Tier;
 use super::{bin_count, evaluate, lane, plan};
+use crate::threshold::footprint::Footprint;
 use crate::threshold::model::Model;
 
 /// A precision that is evaluated in batches: `f32` or `f64`, and no other.
@@ -36,20 +37,16 @@ lane!(f64);
 /// What to evaluate, and by which instructions.
 ///
 /// ```
-/// use hashed_alpha::threshold::batch::{Batch, ColumnBuffer};
-/// use hashed_alpha::threshold::{footprint::Footprint, robust::Robust, two_scale::Variant};
+/// use hashed_alpha::threshold::batch::Batch;
+/// use hashed_alpha::{Footprint, Robust, Variant};
 ///
-/// let footprints = (0..1000_u16).map(|i| Footprint::<f32> {
-///     position: glam::vec3(0.01 * f32::from(i), 0.3, -2.0),
-///     dpdx: glam::vec3(0.01, 0.0, 0.0),
-///     dpdy: glam::vec3(0.0, 0.02, 0.0),
-/// });
+/// let footprints: Vec<_> = (0..1000_u16)
+///     .map(|i| Footprint::<f32>::new([0.01 * f32::from(i), 0.3, -2.0], [0.01, 0.0, 0.0], [0.0, 0.02, 0.0]))
+///     .collect();
 /// let robust = Robust::new(Variant::Isotropic);
-/// let columns: ColumnBuffer<f32> = footprints.clone().collect();
-/// let mut thresholds = vec![0.0; 1000];
-/// Batch::new(robust).thresholds(&columns.columns(), &mut thresholds);
-/// for (footprint, threshold) in footprints.zip(thresholds) {
-///     assert_eq!(robust.threshold(&footprint), Ok(threshold));
+/// let thresholds = Batch::new(robust).of(&footprints);
+/// for (footprint, threshold) in footprints.iter().zip(thresholds) {
+///     assert_eq!(robust.threshold(footprint), Ok(threshold));
 /// }
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -76,5 +73,14 @@ impl Batch {
     pub fn thresholds<R: Lane>(&self, columns: &Columns<'_, R>, out: &mut [R]) {
         assert!(columns.is_as_long_as(out), "columns of unequal length");
         R::thresholds(self, columns, out);
+    }
+
+    /// Returns the threshold of every footprint; NaN where [`Model::threshold`] is NaN.
+    #[must_use]
+    pub fn of<R: Lane>(&self, footprints: &[Footprint<R>]) -> Vec<R> {
+        let columns: ColumnBuffer<R> = footprints.iter().copied().collect();
+        let mut thresholds = vec![R::from_f64(f64::NAN); footprints.len()];
+        self.thresholds(&columns.columns(), &mut thresholds);
+        thresholds
     }
 }

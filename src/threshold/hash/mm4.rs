@@ -1,7 +1,7 @@
 //! MurmurHash3 (x86, 32 bits) of the words of a cell. By A. Appleby; in shaders after Jarzynski & Olano, "Hash Functions for
 //! GPU Rendering", JCGT 9(3), 2020. Not in the paper.
 
-use super::entry::Entry;
+use super::listed::Listed;
 use super::words::integer_hash;
 
 /// Mixes a word into the state of MurmurHash3.
@@ -33,7 +33,7 @@ integer_hash! {
 }
 
 /// What the list of hashes says of it.
-pub(crate) const ENTRY: Entry = Entry {
+pub(crate) const ENTRY: Listed = Listed {
     name: "mm4",
     reads_octave: true,
     is_exact: true,

@@ -4,7 +4,7 @@
 //! out of one. A hash is one file here, one chunk of WGSL in `shader/chunk/hash_cell`, and one line of the list below.
 
 mod cell;
-mod entry;
+mod listed;
 pub mod offset;
 mod words;
 
@@ -15,8 +15,8 @@ use super::choice::by_name;
 use super::real::Real;
 use core::fmt;
 use core::str::FromStr;
-pub(crate) use entry::Entry;
-pub(in crate::threshold) use entry::OfBlocks;
+pub(crate) use listed::Listed;
+pub(in crate::threshold) use listed::OfBlocks;
 
 /// Hands the list of hashes to a macro: kind, file and type of each, with what it is.
 macro_rules! hashes {
@@ -50,7 +50,7 @@ macro_rules! declare {
             pub const ALL: [Self; [$($doc),*].len()] = [$(Self::$kind),*];
 
             /// What the list says of it.
-            pub(crate) const fn entry(self) -> &'static Entry {
+            pub(crate) const fn entry(self) -> &'static Listed {
                 match self {
                     $(Self::$kind => &$file::ENTRY,)*
                 }

@@ -1,6 +1,6 @@
 //! PCG3D of the coordinates of a cell (Jarzynski & Olano 2020). Not in the paper.
 
-use super::entry::Entry;
+use super::listed::Listed;
 use super::pcg4d::lcg;
 use super::words::integer_hash;
 
@@ -26,7 +26,7 @@ integer_hash! {
 }
 
 /// What the list of hashes says of it.
-pub(crate) const ENTRY: Entry = Entry {
+pub(crate) const ENTRY: Listed = Listed {
     name: "pcg3d",
     reads_octave: false,
     is_exact: true,

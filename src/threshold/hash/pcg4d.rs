@@ -1,6 +1,6 @@
 //! PCG4D of the words of a cell (Jarzynski & Olano 2020). Not in the paper.
 
-use super::entry::Entry;
+use super::listed::Listed;
 use super::words::integer_hash;
 
 /// Returns PCG4D of four words (Jarzynski & Olano 2020).
@@ -31,7 +31,7 @@ integer_hash! {
 }
 
 /// What the list of hashes says of it.
-pub(crate) const ENTRY: Entry = Entry {
+pub(crate) const ENTRY: Listed = Listed {
     name: "pcg4d",
     reads_octave: true,
     is_exact: true,

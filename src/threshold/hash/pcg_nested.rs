@@ -1,6 +1,6 @@
 //! The one-dimensional PCG, nested over the words of a cell (Jarzynski & Olano 2020). Not in the paper.
 
-use super::entry::Entry;
+use super::listed::Listed;
 use super::words::integer_hash;
 
 /// Returns the one-dimensional PCG hash of a word (RXS-M-XS; Jarzynski & Olano 2020).
@@ -18,7 +18,7 @@ integer_hash! {
 }
 
 /// What the list of hashes says of it.
-pub(crate) const ENTRY: Entry = Entry {
+pub(crate) const ENTRY: Listed = Listed {
     name: "pcg-nested",
     reads_octave: true,
     is_exact: true,

@@ -1,7 +1,7 @@
 //! The paper's hash (§5.1, after McGuire's Graphics Codex).
 
 use super::cell::{Cell, Hash};
-use super::entry::{Entry, OfBlocks};
+use super::listed::{Listed, OfBlocks};
 use crate::threshold::batch::block::Block;
 use crate::threshold::batch::lane::Kernel;
 use crate::threshold::real::Real;
@@ -62,7 +62,7 @@ impl OfBlocks for Sine {
 }
 
 /// What the list of hashes says of it.
-pub(crate) const ENTRY: Entry = Entry {
+pub(crate) const ENTRY: Listed = Listed {
     name: "sine",
     reads_octave: false,
     is_exact: false,

@@ -1,7 +1,7 @@
 //! The paper's second hash (§9).
 
 use super::cell::{Cell, Hash};
-use super::entry::{Entry, OfBlocks};
+use super::listed::{Listed, OfBlocks};
 use super::sine::{hash_2d, hash_2d_by};
 use crate::threshold::batch::block::Block;
 use crate::threshold::batch::lane::Kernel;
@@ -44,7 +44,7 @@ impl OfBlocks for SineChi2 {
 }
 
 /// What the list of hashes says of it.
-pub(crate) const ENTRY: Entry = Entry {
+pub(crate) const ENTRY: Listed = Listed {
     name: "sine-chi2",
     reads_octave: false,
     is_exact: false,

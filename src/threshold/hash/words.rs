@@ -24,7 +24,7 @@ macro_rules! integer_hash {
             }
         }
 
-        impl $crate::threshold::hash::entry::OfBlocks for $name {
+        impl $crate::threshold::hash::listed::OfBlocks for $name {
             #[inline(always)]
             fn block<R: $crate::threshold::batch::lane::Kernel>(
                 _: impl Fn(R) -> R + Copy,

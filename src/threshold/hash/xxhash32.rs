@@ -1,6 +1,6 @@
 //! XXH32 of the words of a cell. By Y. Collet; in shaders after Jarzynski & Olano 2020. Not in the paper.
 
-use super::entry::Entry;
+use super::listed::Listed;
 use super::words::integer_hash;
 
 #[inline(always)]
@@ -24,7 +24,7 @@ integer_hash! {
 }
 
 /// What the list of hashes says of it.
-pub(crate) const ENTRY: Entry = Entry {
+pub(crate) const ENTRY: Listed = Listed {
     name: "xxhash32",
     reads_octave: true,
     is_exact: true,

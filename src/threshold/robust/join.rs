@@ -19,6 +19,7 @@ use core::str::FromStr;
 
 /// A way of joining the hashes of two octaves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Join {
     /// The paper's: a linear mixture, made uniform by Eq. 2.
     Interpolate,

@@ -24,6 +24,7 @@ pub const SMALLEST_ROBUST_THRESHOLD: f64 = 1.0 / 16_777_216.0;
 
 /// A footprint or parameter that has no threshold.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum InvalidInput {
     /// A coordinate or derivative is NaN or infinite.
     NotFinite {

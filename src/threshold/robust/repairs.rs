@@ -7,6 +7,7 @@ use core::str::FromStr;
 /// One difference from Listings 1 and 2. None is in the paper.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[repr(u8)]
+#[non_exhaustive]
 pub enum Repair {
     /// Positions, derivatives and the hash scale are checked; what is not a finite number is an error.
     ValidateInputs,

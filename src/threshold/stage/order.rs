@@ -8,6 +8,7 @@ use core::num::NonZeroU32;
 
 /// How n strata are spread over n frames.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Order {
     /// Frame i takes `fract(chi + i / n)` (Eq. 6): low thresholds, then high ones.
     Ascending,

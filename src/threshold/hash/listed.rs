@@ -4,7 +4,7 @@ use crate::threshold::batch::block::Block;
 use crate::threshold::batch::lane::Kernel;
 
 /// One hash of the list.
-pub(crate) struct Entry {
+pub(crate) struct Listed {
     /// The name by which a user asks for it.
     pub name: &'static str,
     /// Whether it reads the octave of a cell.

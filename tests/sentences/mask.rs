@@ -3,18 +3,17 @@
 //! Bit i of a mask is sample i; `n` is at most 32, and samples beyond that are left out. Alpha 0 covers nothing and
 //! alpha 1 every sample, whatever the random numbers, in every function that is not called literal.
 
-use super::coverage::{
+use hashed_alpha::threshold::stage::coverage::{
     decorrelated, decorrelated_literal, hardware_threshold, jittered, jittered_literal, pixel_value, regular,
     shuffled, turned,
 };
-use crate::threshold::real::Real;
+use hashed_alpha::threshold::real::Real;
 use core::num::NonZeroU32;
 
 /// The samples that a fragment covers.
 pub type Mask = u32;
 
 /// Returns the share of samples that a mask covers.
-#[must_use]
 pub fn coverage(mask: Mask, n: NonZeroU32) -> f64 {
     f64::from(mask.count_ones()) / f64::from(n.get())
 }
@@ -26,7 +25,6 @@ fn by_threshold<R: Real>(alpha: R, n: NonZeroU32, threshold: impl Fn(u32) -> R) 
 
 /// Returns the mask of the fixed dither: n alpha tests with the thresholds of Eq. 7, which cover `round(n alpha)`
 /// samples. Layers of equal alpha cover the same ones.
-#[must_use]
 pub fn fixed_dither<R: Real>(alpha: R, n: NonZeroU32) -> Mask {
     by_threshold(alpha, n, |i| regular(i, n))
 }
@@ -35,34 +33,24 @@ pub fn fixed_dither<R: Real>(alpha: R, n: NonZeroU32) -> Mask {
 /// may choose them and the paper does not say.
 ///
 /// Half a sample too few in the mean.
-#[must_use]
 pub fn hardware<R: Real>(alpha: R, n: NonZeroU32) -> Mask {
     by_threshold(alpha, n, |i| hardware_threshold(i, n))
 }
 
 /// Returns the mask of jittered thresholds, `(i + chi_i) / n`, clamped: Eq. 8. `chi(i)` is in [0, 1], one value for
 /// every sample or one for each.
-#[must_use]
 pub fn stratified<R: Real>(alpha: R, n: NonZeroU32, chi: impl Fn(u32) -> R) -> Mask {
     by_threshold(alpha, n, |i| jittered(chi(i), i, n))
-}
-
-/// Returns the mask of Eq. 8 to the letter: sample 0 covers alpha 0 where its `chi` is 0.
-#[must_use]
-pub fn stratified_literal<R: Real>(alpha: R, n: NonZeroU32, chi: impl Fn(u32) -> R) -> Mask {
-    by_threshold(alpha, n, |i| jittered_literal(chi(i), i, n))
 }
 
 /// Returns the mask of jittered thresholds that are permuted for each fragment, Eq. 9 with a step coprime to `n`.
 ///
 /// `xi` holds two hashes in [0, 1] that must differ between layers; `chi` is that of [`stratified`].
-#[must_use]
 pub fn permuted<R: Real>(alpha: R, n: NonZeroU32, xi: [R; 2], chi: impl Fn(u32) -> R) -> Mask {
     by_threshold(alpha, n, |i| jittered(chi(i), decorrelated(xi, i, n), n))
 }
 
 /// Returns the mask of Eq. 9 to the letter: for an `n` that is no power of two strata repeat, up to all of them.
-#[must_use]
 pub fn permuted_literal<R: Real>(alpha: R, n: NonZeroU32, xi: [R; 2], chi: impl Fn(u32) -> R) -> Mask {
     by_threshold(alpha, n, |i| jittered_literal(chi(i), decorrelated_literal(xi, i, n), n))
 }
@@ -72,7 +60,6 @@ pub fn permuted_literal<R: Real>(alpha: R, n: NonZeroU32, xi: [R; 2], chi: impl 
 ///
 /// `chi` in [0, 1] rounds the count so that its mean is `n alpha`; `word` chooses the set and must differ between
 /// layers and fragments. These are jittered thresholds whose strata are [`shuffled`].
-#[must_use]
 pub fn random_set<R: Real>(alpha: R, n: NonZeroU32, chi: R, word: u32) -> Mask {
     by_threshold(alpha, n, |i| jittered(chi, shuffled(word, i, n), n))
 }
@@ -82,7 +69,6 @@ pub fn random_set<R: Real>(alpha: R, n: NonZeroU32, chi: R, word: u32) -> Mask {
 ///
 /// The value both rounds the count and turns the pattern, so neighbouring pixels have different ones. Layers of a pixel
 /// share it, and with it their samples.
-#[must_use]
 pub fn by_pixel<R: Real>(alpha: R, n: NonZeroU32, pixel: [u32; 2]) -> Mask {
     let chi = pixel_value(pixel);
     by_threshold(alpha, n, |i| turned(chi, i, n))
@@ -91,7 +77,7 @@ pub fn by_pixel<R: Real>(alpha: R, n: NonZeroU32, pixel: [u32; 2]) -> Mask {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::threshold::hash::{mm4::murmur3, open_lattice};
+    use hashed_alpha::threshold::hash::{mm4::murmur3, open_lattice};
 
     fn n(samples: u32) -> NonZeroU32 {
         NonZeroU32::new(samples).unwrap()
@@ -99,6 +85,11 @@ mod tests {
 
     fn value(words: [u32; 4]) -> f64 {
         open_lattice(murmur3(words))
+    }
+
+    /// Returns the mask of Eq. 8 to the letter: sample 0 covers alpha 0 where its `chi` is 0.
+    fn stratified_literal<R: Real>(alpha: R, n: NonZeroU32, chi: impl Fn(u32) -> R) -> Mask {
+        by_threshold(alpha, n, |i| jittered_literal(chi(i), i, n))
     }
 
     /// Every kind of mask at a pixel and layer, with hashes that differ between layers.
