@@ -29,7 +29,7 @@ const IN_CIRCLES: usize = 103;
 const SIDEWAYS: usize = 32;
 
 /// The text of every source file.
-fn sources() -> Sources {
+pub fn sources() -> Sources {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     let mut folders = vec![root.clone()];
     let mut sources = Sources::new();
@@ -60,7 +60,7 @@ fn with(files: &[(&str, &str)]) -> Imports {
 }
 
 /// The lines of a file that are code of the crate itself: no comments, nothing from the unit tests on.
-fn code(text: &str) -> String {
+pub fn code(text: &str) -> String {
     let code = text.split("#[cfg(test)]\nmod tests").next().unwrap_or_default();
     code.lines().filter(|line| !line.trim_start().starts_with("//")).collect::<Vec<_>>().join("\n")
 }

@@ -2,7 +2,8 @@
 //! `HASHED_ALPHA_BLESS=all cargo test --test main coordinates::` writes anew.
 
 use hashed_alpha::check::Draw;
-use hashed_alpha::check::coordinates::{Coordinates, Entry, Motion, Stated, table};
+use hashed_alpha::check::coordinates::{Coordinates, Stated, TableCell, table};
+use hashed_alpha::check::input::motion::Motion;
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -16,7 +17,7 @@ fn mark(stated: Stated) -> &'static str {
     }
 }
 
-fn page(entries: &[Entry]) -> String {
+fn page(entries: &[TableCell]) -> String {
     let mut page = "# In which coordinates to hash\n\n\
         The table of GDC 2017 (\"Key: Coordinate Choice For Hash Input\"), measured: a point of a surface is followed over \
         one\nframe of a motion, and its threshold is asked for before and after, hashed in each kind of coordinates with the\n\

@@ -5,7 +5,7 @@
 
 use hashed_alpha::check::subject::Precision;
 use hashed_alpha::check::tolerance::DRAWS_A_PLACE;
-use hashed_alpha::check::{Subject, sample};
+use hashed_alpha::check::{Subject, input::sample};
 use hashed_alpha::scene::Scene;
 use hashed_alpha::stats::chi_square::{self, ChiSquare};
 use hashed_alpha::stats::seed;

@@ -4,10 +4,11 @@
 //! A change of these lines is a change of seeded results and belongs into the changelog;
 //! `HASHED_ALPHA_BLESS=all cargo test --test main golden::` writes them anew.
 
+use hashed_alpha::check::evidence::{ComparedShare, Evidence};
 use hashed_alpha::check::specimen::{self, ideal};
 use hashed_alpha::check::subject::Precision;
 use hashed_alpha::check::{
-    Budget, Draw, Outcome, Subject, claims, compare, coordinates, diagnosis, run_claims,
+    Budget, Comparison, Draw, Outcome, Subject, claims, compare, coordinates, diagnosis, run_claims,
 };
 use hashed_alpha::threshold::robust::Join;
 use hashed_alpha::threshold::two_scale::Variant;
@@ -35,21 +36,64 @@ fn subjects() -> Vec<Subject<'static>> {
 }
 
 /// The first digits of a digest.
-fn digest(all: &impl core::fmt::Debug) -> String {
-    Sha256::digest(format!("{all:?}"))
-        .iter()
-        .take(6)
-        .fold(String::new(), |text, byte| text + &format!("{byte:02x}"))
+fn digest(all: &str) -> String {
+    Sha256::digest(all).iter().take(6).fold(String::new(), |text, byte| text + &format!("{byte:02x}"))
 }
 
+/// A number with all its digits; a dash where there is none.
+fn number(value: Option<f64>) -> String {
+    value.map_or_else(|| "-".to_owned(), |value| format!("{value:e}"))
+}
+
+/// The numbers of the evidence in their order, and none of its words.
+fn numbers(evidence: &Evidence) -> Vec<String> {
+    let of_points = |points: &[ComparedShare]| -> Vec<String> {
+        let of = |p: &ComparedShare| [p.x, p.measured, p.predicted, p.sigma].map(|v| format!("{v:e}"));
+        points.iter().flat_map(of).collect()
+    };
+    match evidence {
+        Evidence::None => Vec::new(),
+        Evidence::Histograms(all) => {
+            all.iter().flat_map(|one| &one.counts).map(ToString::to_string).collect()
+        }
+        Evidence::Pairs { side, counts } => {
+            [*side as u64].iter().chain(counts).map(ToString::to_string).collect()
+        }
+        Evidence::Shares { points, .. } | Evidence::Quantity { points, .. } => of_points(points),
+        other => panic!("the digest knows nothing of {other:?}"),
+    }
+}
+
+/// What an outcome comes to, by value; the digest covers what is too long to be read. Words may change, and names of fields.
 fn line(outcome: &Outcome) -> String {
-    let number = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| format!("{value:e}"));
-    let Outcome { check, subject, precision, verdict, n, p, effect, detectable, .. } = outcome;
-    let [p, effect, detectable] = [p, effect, detectable].map(|value| number(*value));
-    let everything = digest(&Outcome { p_holm: None, ..outcome.clone() });
+    let Outcome { check, subject, precision, verdict, expected, n, p, effect, detectable, rounds, .. } =
+        outcome;
+    let [p, effect, detectable, statistic] = [*p, *effect, *detectable, outcome.statistic].map(number);
+    let values = format!(
+        "{subject} {precision} {check} {verdict} {expected} {rounds} {n} {statistic} {p} {effect} {detectable} {}",
+        numbers(&outcome.evidence).join(" ")
+    );
     format!(
-        "{subject} {precision} {check} {verdict} n={n} p={p} effect={effect} of {detectable} {everything}"
+        "{subject} {precision} {check} {verdict} n={n} p={p} effect={effect} of {detectable} {}",
+        digest(&values)
     )
+}
+
+/// How two subjects compare, by value.
+fn compared(found: &Comparison) -> String {
+    let Comparison { n, refused: [first, second], share_equal, share_within, agreement, .. } = found;
+    let [largest, chi_square, ks] =
+        [found.largest_difference, found.p_chi_square, found.p_kolmogorov_smirnov];
+    format!(
+        "{agreement}: n={n} refused={first},{second} equal={share_equal:e} within={share_within:e} largest={largest:e} \
+         p={chi_square:e},{ks:e}"
+    )
+}
+
+/// What a subject looks like, by value.
+fn likenesses(outcomes: &[Outcome]) -> String {
+    let of = |guess: diagnosis::Guess| format!("{} {:e}\n", guess.specimen.name, guess.likeness);
+    diagnosis::guesses(outcomes).into_iter().map(of).collect()
 }
 
 /// Everything that is kept, by lines.
@@ -63,15 +107,17 @@ fn battery() -> String {
         text.extend(outcomes.iter().flatten().map(|outcome| line(outcome) + "\n"));
     }
     for pair in subjects.windows(2) {
-        let compared = compare::compare(&pair[0], &pair[1], &DRAW);
-        let _ = writeln!(text, "{} and {}: {compared:?}", pair[0].name, pair[1].name);
+        let found = compare(&pair[0], &pair[1], &DRAW).map_or_else(|reason| reason, |found| compared(&found));
+        let _ = writeln!(text, "{} and {}: {found}", pair[0].name, pair[1].name);
     }
     for specimen in specimen::ALL.iter().step_by(70) {
         let outcomes = run_claims(claims::ALL, &[(specimen.subject)()], &DRAW, || {});
-        let _ = writeln!(text, "{} looks like {}", specimen.name, digest(&diagnosis::guesses(&outcomes)));
+        let _ = writeln!(text, "{} looks like {}", specimen.name, digest(&likenesses(&outcomes)));
     }
     for entry in coordinates::table(&DRAW) {
-        let _ = writeln!(text, "{entry:?}");
+        let (coordinates, motion) = (entry.coordinates.name(), entry.motion.name());
+        let (kept, points) = (entry.kept, entry.points);
+        let _ = writeln!(text, "{coordinates}, {motion}: {kept:e} of {points}, {}", entry.is_confirmed());
     }
     text
 }

@@ -10,13 +10,16 @@ mod architecture;
 mod batch;
 mod calibration;
 mod compare;
+mod constants;
 mod coordinates;
 mod emulated;
 mod exhaustive;
+mod extension_claims;
 mod extension_hashes;
 mod golden;
 #[path = "sentences/mask.rs"]
 mod mask;
+mod masks;
 mod names;
 mod namesakes;
 mod oracle;
@@ -27,6 +30,8 @@ mod threads;
 
 #[cfg(feature = "shader")]
 mod interpreter;
+#[cfg(feature = "shader")]
+mod interpreter_operations;
 #[cfg(feature = "shader")]
 mod own_shader;
 #[cfg(feature = "shader")]

@@ -1,5 +1,6 @@
 //! Properties that hold for every input: of the CDF, of a shift by whole cells, and of any chain of techniques.
 
+use crate::mask;
 use core::num::NonZeroU32;
 use glam::{DVec3, dvec3};
 use hashed_alpha::threshold::cdf::CdfForm;
@@ -10,7 +11,6 @@ use hashed_alpha::threshold::hashed::{HashedAlpha, SMALLEST_THRESHOLD};
 use hashed_alpha::threshold::robust::{Join, Repairs, Robust, scales};
 use hashed_alpha::threshold::stage::fade_in::fade_in;
 use hashed_alpha::threshold::stage::order::Order;
-use crate::mask;
 use hashed_alpha::threshold::stage::screen_door;
 use hashed_alpha::threshold::two_scale::Variant;
 use proptest::prelude::*;

@@ -4,13 +4,19 @@
 //! what rests on the sine of large arguments shares no digit between two machines, and all that can be the same is the
 //! law.
 
-use super::sample::{general_scenes, independent};
-use super::tolerance::{COMPARED_SAMPLES, DRAWS_A_PLACE, EQUAL_WITHIN, FAMILY_LEVEL, LERP_GROUPS, PAIR_BINS};
-use super::{Draw, Subject};
+use crate::check::input::{general_scenes, independent};
+use crate::check::tolerance::{DRAWS_A_PLACE, FAMILY_LEVEL, LERP_GROUPS, PAIR_BINS};
+use crate::check::{Draw, Subject};
 use crate::scene::Fragment;
 use crate::stats::histogram::bin_of;
 use crate::stats::{StatsError, chi_square, two_sample};
 use core::fmt;
+
+/// Largest difference of two values that count as equal but for rounding: sixteen roundings of an `f32` near 1.
+const EQUAL_WITHIN: f64 = 1.0e-6;
+
+/// Samples of each of two subjects whose laws are compared: 256 expected in every cell of the table.
+const COMPARED_SAMPLES: usize = 1 << 16;
 
 /// How much two subjects agree, the strongest first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -47,6 +53,7 @@ impl fmt::Display for Agreement {
 
 /// What a comparison of two subjects found.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Comparison {
     /// Fragments that both were asked for.
     pub n: u64,

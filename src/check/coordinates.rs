@@ -5,17 +5,22 @@
 //! those coordinates. It is kept if it changes by no more than the change of its scale explains; points whose scale
 //! explains much are left out.
 
-use super::Draw;
-use super::claims::continuity::allowed;
-use super::sample::{general_scenes, placement, sighting};
-use super::subject::{Precision, Subject};
-use super::tolerance::{EXPLAINED, MOTION_PIXELS, TABLE_POINTS, TURN_A_FRAME, WAVE};
-use crate::scene::{Camera, Fragment, Rectangle, posed};
+use crate::check::input::{Motion, general_scenes, placement, sighting};
+use crate::check::predict::largest_change;
+use crate::check::{Draw, Precision, Subject};
+use crate::scene::Fragment;
 use crate::threshold::footprint::Footprint;
 use crate::threshold::hash::HashKind;
 use crate::threshold::robust::Robust;
 use crate::threshold::two_scale::Variant;
-use glam::{DQuat, DVec2, DVec3, dvec3};
+use glam::{DVec2, DVec3};
+
+/// Points that are followed for one cell of the table of coordinates: a share is known to a hundredth.
+const TABLE_POINTS: usize = 1 << 11;
+
+/// The largest change of a threshold that the change of its scale may explain in that table: two thresholds that have
+/// nothing to do with each other are nearer than this in one case of four.
+const EXPLAINED: f64 = 0.125;
 
 /// A kind of coordinates, a row of the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -34,23 +39,6 @@ pub enum Coordinates {
     Object,
 }
 
-/// What moves, a column of the table.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Motion {
-    /// The camera moves sideways.
-    CameraTranslation,
-    /// The camera turns and rolls.
-    CameraRotation,
-    /// The object moves sideways.
-    ObjectTranslation,
-    /// The object turns.
-    ObjectRotation,
-    /// One of two bones turns, and each point follows it by a weight of its own.
-    Skinning,
-    /// A wave runs through the object.
-    Deformation,
-}
-
 /// What the slides say of a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Stated {
@@ -67,7 +55,7 @@ pub enum Stated {
 
 /// One cell of the table.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Entry {
+pub struct TableCell {
     /// Its row.
     pub coordinates: Coordinates,
     /// Its column.
@@ -80,7 +68,7 @@ pub struct Entry {
     pub points: u64,
 }
 
-impl Entry {
+impl TableCell {
     /// Returns whether the measurement agrees with the slides: all points keep their threshold where they say so, and
     /// fewer than half where they do not.
     #[must_use]
@@ -126,92 +114,6 @@ impl Coordinates {
     }
 }
 
-impl Motion {
-    /// Every motion, in the order of the slides.
-    pub const ALL: [Self; 6] = [
-        Self::CameraTranslation,
-        Self::CameraRotation,
-        Self::ObjectTranslation,
-        Self::ObjectRotation,
-        Self::Skinning,
-        Self::Deformation,
-    ];
-
-    /// The words by which reports name it.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::CameraTranslation => "camera translation",
-            Self::CameraRotation => "camera rotation",
-            Self::ObjectTranslation => "object translation",
-            Self::ObjectRotation => "object rotation",
-            Self::Skinning => "object skinning",
-            Self::Deformation => "object deformation",
-        }
-    }
-
-    /// Returns the camera after `frames` frames of the motion.
-    #[must_use]
-    pub fn camera(self, camera: &Camera, surface: &Rectangle, frames: f64) -> Camera {
-        match self {
-            Self::CameraTranslation => {
-                let by = sideways(camera, surface) * frames;
-                Camera { eye: camera.eye - by, ..*camera }
-            }
-            Self::CameraRotation => {
-                let yaw = camera.direction_dx.length() * MOTION_PIXELS * frames;
-                let turn = DQuat::from_axis_angle(camera.direction_dy.normalize(), yaw)
-                    * DQuat::from_axis_angle(camera.forward, TURN_A_FRAME * frames);
-                Camera {
-                    forward: turn * camera.forward,
-                    direction_dx: turn * camera.direction_dx,
-                    direction_dy: turn * camera.direction_dy,
-                    ..*camera
-                }
-            }
-            _ => *camera,
-        }
-    }
-
-    /// Returns where a point of the object is in the world after `frames` frames of the motion; before it, object and
-    /// world coordinates are the same.
-    #[must_use]
-    pub fn to_world(self, camera: &Camera, surface: &Rectangle, frames: f64, point: DVec3) -> DVec3 {
-        let from_centre = point - surface.centre;
-        let turned = || {
-            let turn = DQuat::from_axis_angle(dvec3(0.48, -0.6, 0.64), TURN_A_FRAME * frames);
-            turn * from_centre + surface.centre
-        };
-        let wave = || libm::sin(from_centre.dot(DVec3::from_array(WAVE)));
-        match self {
-            Self::CameraTranslation | Self::CameraRotation => point,
-            Self::ObjectTranslation => point + sideways(camera, surface) * frames,
-            Self::ObjectRotation => turned(),
-            Self::Skinning => point.lerp(turned(), 0.5 + 0.5 * wave()),
-            Self::Deformation => point + sideways(camera, surface) * (frames * wave()),
-        }
-    }
-
-    /// Follows a point of a surface over `frames` frames; `None` where it goes out of sight.
-    #[must_use]
-    pub fn fragment(
-        self,
-        camera: &Camera,
-        surface: &Rectangle,
-        frames: f64,
-        point: DVec3,
-    ) -> Option<Fragment> {
-        let to_world = |point| self.to_world(camera, surface, frames, point);
-        posed::fragment(&self.camera(camera, surface, frames), surface, to_world, point)
-    }
-}
-
-/// The way in the world that moves the middle of the surface by [`MOTION_PIXELS`] on the screen.
-fn sideways(camera: &Camera, surface: &Rectangle) -> DVec3 {
-    let depth = camera.to_eye(surface.centre).z;
-    (camera.direction_dx * 0.8 + camera.direction_dy * 0.6) * (depth * MOTION_PIXELS)
-}
-
 /// What the slides say: rows and columns in the order of [`Coordinates::ALL`] and [`Motion::ALL`].
 const STATED: [[Stated; 6]; 6] = {
     use Stated::{BeforeDeformation as Before, Generous, Stable as Yes, Unstable as No};
@@ -228,12 +130,18 @@ const STATED: [[Stated; 6]; 6] = {
 /// Measures the table of GDC 2017 ("Key: Coordinate Choice For Hash Input"), row by row, on the scenes in general
 /// position.
 #[must_use]
-pub fn table(draw: &Draw) -> Vec<Entry> {
+pub fn table(draw: &Draw) -> Vec<TableCell> {
     let mut entries = Vec::new();
     for (coordinates, row) in Coordinates::ALL.into_iter().zip(STATED) {
         for (motion, stated) in Motion::ALL.into_iter().zip(row) {
             let (kept, points) = measured(coordinates, motion, draw);
-            entries.push(Entry { coordinates, motion, stated, kept: kept as f64 / points as f64, points });
+            entries.push(TableCell {
+                coordinates,
+                motion,
+                stated,
+                kept: kept as f64 / points as f64,
+                points,
+            });
         }
     }
     entries
@@ -273,7 +181,7 @@ fn measured(coordinates: Coordinates, motion: Motion, draw: &Draw) -> (u64, u64)
     });
     let (mut kept, mut points) = (0, 0);
     for ((earlier, later), (old, new)) in pairs.iter().zip(before.iter().zip(&after)) {
-        let by_scale = allowed(&subject, &subject.nominal(earlier), &subject.nominal(later));
+        let by_scale = largest_change(&subject, &subject.nominal(earlier), &subject.nominal(later));
         if by_scale <= EXPLAINED {
             points += 1;
             kept += u64::from((new - old).abs() <= by_scale);

@@ -1,13 +1,23 @@
-//! What a rejected threshold looks like: the specimens that much the same claims reject.
+//! What a rejected threshold looks like: the known defects, as specimens, that nearly the same claims reject.
 
-use super::Outcome;
 use super::claims::range::RANGE;
+use super::known::listing_fails;
+use super::outcome::{Outcome, Standing, Verdict};
 use super::specimen::{self, Specimen, matrix::KillMatrix};
-use super::tolerance::{GUESSES, LEAST_LIKENESS, NO_THRESHOLD};
+use super::subject::Precision;
+use super::tolerance::GUESSES;
 use core::fmt;
+
+/// A specimen is named where it shares this much of what rejects it with a subject: with less, the two differ in most.
+const LEAST_LIKENESS: f64 = 0.3;
+
+/// A share of footprints without a threshold in (0, 1] beyond which a subject is told to have none: no specimen has more
+/// than a few.
+const NO_THRESHOLD: f64 = 0.9;
 
 /// A specimen that a subject looks like.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct Guess {
     /// The specimen.
     pub specimen: &'static Specimen,
@@ -23,8 +33,8 @@ impl fmt::Display for Guess {
     }
 }
 
-/// Returns the specimens that the subject of these outcomes looks like, the likest first. Of those that are equally like
-/// it, which happens where few claims were tried, the one with the simplest defect comes first: the one that the fewest
+/// Returns the specimens that the subject of these outcomes looks like, the most similar first. Of those that are equally
+/// similar, which happens where few claims were tried, the one with the simplest defect comes first: the one that the fewest
 /// claims of the whole suite reject.
 ///
 /// Specimens are sound but for one defect. A subject may be a port of the paper's own listing with that defect: what the
@@ -40,23 +50,27 @@ pub fn guesses(outcomes: &[Outcome]) -> Vec<Guess> {
         return Vec::new();
     }
     let matrix = KillMatrix::committed();
-    let tried: Vec<&Outcome> =
-        outcomes.iter().filter(|outcome| outcome.is_answered() && outcome.known.is_none()).collect();
     let weight =
         |claim: &str| libm::log((matrix.rows.len() + 1) as f64 / (matrix.rejected_by(claim) + 1) as f64);
-    let weighed: Vec<(&Outcome, f64)> =
-        tried.into_iter().map(|outcome| (outcome, weight(outcome.check))).collect();
+    let weighed: Vec<(&Outcome, bool, f64)> = outcomes
+        .iter()
+        .filter_map(|outcome| match outcome.standing() {
+            Standing::Against => Some((outcome, true, weight(outcome.check))),
+            Standing::AsExpected => Some((outcome, false, weight(outcome.check))),
+            Standing::Unanswered | Standing::Known | Standing::NotApplicable => None,
+        })
+        .collect();
     let likeness = |specimen: &'static Specimen| {
         let row = matrix.row(specimen.name)?;
         let of_port = |is_listing: bool| {
             let (mut both, mut either) = (0.0, 0.0);
-            for &(outcome, weight) in &weighed {
+            for &(outcome, is_against, weight) in &weighed {
                 let fails =
-                    row.claims.contains(&outcome.check) || is_listing && outcome.listing_fails.is_some();
-                match (!outcome.as_expected(), fails) {
+                    row.claims.contains(&outcome.check) || is_listing && listing_fails(outcome).is_some();
+                match (is_against, fails) {
                     (true, true) => (both, either) = (both + weight, either + weight),
                     (false, false) => {}
-                    _ => either += weight,
+                    (true, false) | (false, true) => either += weight,
                 }
             }
             if either > 0.0 { both / either } else { 0.0 }
@@ -72,20 +86,22 @@ pub fn guesses(outcomes: &[Outcome]) -> Vec<Guess> {
 
 /// What one subject of a run looks like.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Diagnosis<'a> {
     /// Name of the subject.
     pub subject: &'a str,
-    /// "f32" or "f64".
-    pub precision: &'static str,
+    /// Its arithmetic.
+    pub precision: Precision,
     /// Whether it answers next to nothing but what is no threshold; then there are no guesses, since no other claim says more.
     pub is_no_threshold: bool,
-    /// The likest specimens, at most three.
+    /// The most similar specimens, at most three.
     pub guesses: Vec<Guess>,
 }
 
 /// Whether nearly all thresholds are NaN or outside of (0, 1].
 fn is_no_threshold(outcomes: &[Outcome]) -> bool {
-    let is_so = |o: &Outcome| o.check == RANGE.id && !o.as_expected() && o.effect > Some(NO_THRESHOLD);
+    let is_so =
+        |o: &Outcome| o.check == RANGE.id && o.verdict == Verdict::Rejected && o.effect > Some(NO_THRESHOLD);
     outcomes.iter().any(is_so)
 }
 
@@ -111,18 +127,17 @@ pub fn diagnoses(outcomes: &[Outcome]) -> Vec<Diagnosis<'_>> {
 }
 
 #[cfg(test)]
-pub(super) mod tests {
+pub(crate) mod tests {
     use super::super::outcome::tests::outcome;
-    use super::super::subject::Precision;
-    use super::super::{Verdict, claims, findings};
+    use super::super::{Claim, claims};
     use super::*;
     use crate::threshold::two_scale::Variant;
 
     /// The outcomes of a specimen as the matrix has them.
-    pub(in crate::check) fn outcomes_of(specimen: &str) -> Vec<Outcome> {
+    pub(crate) fn outcomes_of(specimen: &str) -> Vec<Outcome> {
         let matrix = KillMatrix::committed();
         let row = matrix.row(specimen).expect("a row of that name");
-        let answer = |claim: &claims::Claim| {
+        let answer = |claim: &Claim| {
             let rejected = row.claims.contains(&claim.id) != (claim.expected == Verdict::Rejected);
             let verdict = if rejected { Verdict::Rejected } else { Verdict::Consistent };
             Outcome { expected: claim.expected, ..outcome(claim.id, verdict) }
@@ -176,9 +191,8 @@ pub(super) mod tests {
         let outcomes = |specimen: &str| {
             let mut outcomes = outcomes_of(specimen);
             for outcome in &mut outcomes {
-                outcome.listing_fails =
-                    findings::of_listing(outcome.check, Variant::Isotropic, Precision::F32);
-                if outcome.listing_fails.is_some() {
+                (outcome.variant, outcome.precision) = (Variant::Isotropic, Precision::F32);
+                if listing_fails(outcome).is_some() {
                     outcome.verdict = Verdict::Rejected;
                 }
             }

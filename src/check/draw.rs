@@ -1,8 +1,13 @@
 //! How the inputs of a run are drawn: by rule, from the seed and the claim's name, and as many as the budget allows.
 
-use super::tolerance::{ROUND_GROWTH, SAMPLES_LIMIT};
 use crate::stats::seed;
 use rand::rngs::Xoshiro256PlusPlus;
+
+/// How many times more samples a retest draws: a shift shows twice as clearly.
+const ROUND_GROWTH: usize = crate::stats::sequential::GROWTH;
+
+/// Most samples of one kind in memory, whatever budget and round: a few gigabytes.
+const SAMPLES_LIMIT: usize = 1 << 23;
 
 /// How much a run may cost. The size of every sample is stated for [`Budget::Ci`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]

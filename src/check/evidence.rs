@@ -1,7 +1,10 @@
 //! What a claim saw, in the form in which it is drawn.
 
+use crate::stats::histogram::Histogram;
+
 /// Evidence of one claim.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub enum Evidence {
     /// Nothing to draw.
     #[default]
@@ -16,7 +19,12 @@ pub enum Evidence {
         counts: Vec<u64>,
     },
     /// Measured shares beside those that are predicted.
-    Comparison(Vec<ComparedShare>),
+    Shares {
+        /// What `x` is, with its unit in brackets.
+        abscissa: &'static str,
+        /// The shares.
+        points: Vec<ComparedShare>,
+    },
     /// Measured values of any quantity beside those that are predicted.
     Quantity {
         /// What `x` is, with its unit in brackets.
@@ -35,6 +43,14 @@ pub struct NamedHistogram {
     pub name: String,
     /// Counts in equal bins over [0, 1].
     pub counts: Vec<u64>,
+}
+
+impl NamedHistogram {
+    /// Names what a histogram has counted.
+    #[must_use]
+    pub fn new(name: impl Into<String>, histogram: &Histogram) -> Self {
+        Self { name: name.into(), counts: histogram.counts().to_vec() }
+    }
 }
 
 /// A share that was measured and the one that was predicted for it.

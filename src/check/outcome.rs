@@ -1,10 +1,14 @@
 //! What came out of one claim tried on one subject.
 
-use super::Evidence;
+use super::evidence::Evidence;
+use super::subject::Precision;
+use crate::threshold::two_scale::Variant;
 use core::fmt;
+use std::borrow::Cow;
 
 /// The answer to a claim.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Verdict {
     /// Nothing seen speaks against the claim.
     Consistent,
@@ -38,8 +42,50 @@ impl fmt::Display for Verdict {
     }
 }
 
-/// One line of a report.
+/// What an outcome is worth to whoever reads the run, the most urgent first.
+///
+/// Decided here and nowhere else: the text, the page, JSON, the exit code, [`Results::assert`](super::Results::assert) and
+/// [`diagnosis`](super::diagnosis) all read it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Standing {
+    /// The answer speaks against the subject: a claim is rejected, or a negative control is not.
+    Against,
+    /// There should be an answer, and there is none: too few samples, or the subject could not be run.
+    Unanswered,
+    /// A claim is rejected, and a list of known findings names it.
+    Known,
+    /// The answer is the one that a sound subject gives.
+    AsExpected,
+    /// The claim says nothing about this subject.
+    NotApplicable,
+}
+
+impl Standing {
+    /// The word by which data formats name it.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Against => "against",
+            Self::Unanswered => "unanswered",
+            Self::Known => "known",
+            Self::AsExpected => "as_expected",
+            Self::NotApplicable => "not_applicable",
+        }
+    }
+
+    /// Returns whether the subject has something left to show: it speaks against it, or it is unanswered.
+    #[must_use]
+    pub const fn is_news(self) -> bool {
+        match self {
+            Self::Against | Self::Unanswered => true,
+            Self::Known | Self::AsExpected | Self::NotApplicable => false,
+        }
+    }
+}
+
+/// One claim tried on one subject: a line of a report.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Outcome {
     /// Identifier of the claim, `family.claim`.
     pub check: &'static str,
@@ -49,8 +95,10 @@ pub struct Outcome {
     pub statement: &'static str,
     /// Who was tried, as in "paper:isotropic".
     pub subject: String,
-    /// "f32" or "f64".
-    pub precision: &'static str,
+    /// The listing that the subject claims to follow.
+    pub variant: Variant,
+    /// The arithmetic in which the subject works.
+    pub precision: Precision,
     /// The answer.
     pub verdict: Verdict,
     /// The answer that a sound subject gives: [`Verdict::Rejected`] for a negative control, else
@@ -76,42 +124,66 @@ pub struct Outcome {
     pub detectable: Option<f64>,
     /// Seed of the run.
     pub seed: u64,
-    /// What was found, in words; absent where the claim holds without remark.
-    pub finding: Option<String>,
-    /// Why a rejection does not surprise, where a list of known findings names it.
-    pub known: Option<String>,
-    /// Why the paper's own listing fails this claim, where it is known to.
-    pub listing_fails: Option<&'static str>,
+    /// What was seen, in words; absent where the claim is consistent.
+    pub seen: Option<String>,
+    /// Why a rejection does not surprise, where a list of known findings names it ([`known::mark`](super::known::mark)).
+    pub known: Option<Cow<'static, str>>,
     /// What was seen, to be drawn.
     pub evidence: Evidence,
 }
 
 impl Outcome {
-    /// Returns whether the answer is the one that a sound subject gives, or says that there was nothing to answer.
+    /// What the outcome is worth.
     #[must_use]
-    pub fn as_expected(&self) -> bool {
-        self.verdict == self.expected || self.verdict == Verdict::NotApplicable
+    pub fn standing(&self) -> Standing {
+        match self.verdict {
+            Verdict::NotApplicable => Standing::NotApplicable,
+            Verdict::Inconclusive | Verdict::Unavailable => Standing::Unanswered,
+            Verdict::Consistent | Verdict::Rejected => {
+                if self.verdict == self.expected {
+                    Standing::AsExpected
+                } else if self.verdict == Verdict::Rejected && self.known.is_some() {
+                    Standing::Known
+                } else {
+                    Standing::Against
+                }
+            }
+        }
     }
 
-    /// Returns whether there is an answer.
+    /// Returns whether the claim is a negative control, which a sound subject fails.
     #[must_use]
-    pub fn is_answered(&self) -> bool {
-        matches!(self.verdict, Verdict::Consistent | Verdict::Rejected)
+    pub fn is_control(&self) -> bool {
+        self.expected == Verdict::Rejected
     }
 
-    /// Returns whether the answer speaks against the subject: not as expected, and not known either.
+    /// The answer in words that say whether a negative control did its work and whether a rejection was known.
     #[must_use]
-    pub fn is_news(&self) -> bool {
-        !self.as_expected() && self.known.is_none()
+    pub fn answer(&self) -> &'static str {
+        match (self.standing(), self.is_control()) {
+            (Standing::AsExpected, true) => "rejected, as it must be",
+            (Standing::Against, true) => "not rejected, though it must be",
+            (Standing::Known, _) => "rejected, as known",
+            (Standing::NotApplicable, _) => "not applicable",
+            (Standing::AsExpected | Standing::Against, false) | (Standing::Unanswered, _) => {
+                self.verdict.name()
+            }
+        }
     }
+}
+
+/// Returns what a run is worth: the most urgent standing of its outcomes.
+#[must_use]
+pub fn worst(outcomes: &[Outcome]) -> Standing {
+    outcomes.iter().map(Outcome::standing).min().unwrap_or(Standing::NotApplicable)
 }
 
 /// The verdict, the claim, what was seen, and by what numbers.
 impl fmt::Display for Outcome {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: {} ({})\n  claim: {}", self.verdict, self.check, self.anchor, self.statement)?;
-        if let Some(finding) = &self.finding {
-            write!(f, "\n  seen: {finding}")?;
+        if let Some(seen) = &self.seen {
+            write!(f, "\n  seen: {seen}")?;
         }
         write!(f, "\n  n = {}", self.n)?;
         if let Some(statistic) = self.statistic {
@@ -134,14 +206,15 @@ impl fmt::Display for Outcome {
 pub(crate) mod tests {
     use super::*;
 
-    /// An outcome of which only claim and verdict matter.
+    /// An outcome of which only claim and verdict matter, of a variant that is no listing.
     pub(crate) fn outcome(check: &'static str, verdict: Verdict) -> Outcome {
         Outcome {
             check,
             anchor: "§5",
             statement: "",
             subject: "s".into(),
-            precision: "f32",
+            variant: Variant::Single,
+            precision: Precision::F32,
             verdict,
             expected: Verdict::Consistent,
             statistic: None,
@@ -154,10 +227,43 @@ pub(crate) mod tests {
             effect_name: "",
             detectable: None,
             seed: 0,
-            finding: None,
+            seen: None,
             known: None,
-            listing_fails: None,
             evidence: Evidence::None,
         }
+    }
+    #[test]
+    fn a_standing_weighs_the_verdict_against_what_was_expected_and_known() {
+        let of = |verdict, expected, known: bool| Outcome {
+            expected,
+            known: known.then(|| "why".into()),
+            ..outcome("a", verdict)
+        };
+        use Verdict::{Consistent, Inconclusive, NotApplicable, Rejected, Unavailable};
+        for (verdict, expected, known, standing, answer) in [
+            (Consistent, Consistent, false, Standing::AsExpected, "consistent"),
+            (Rejected, Consistent, false, Standing::Against, "rejected"),
+            (Rejected, Consistent, true, Standing::Known, "rejected, as known"),
+            (Rejected, Rejected, false, Standing::AsExpected, "rejected, as it must be"),
+            (Consistent, Rejected, false, Standing::Against, "not rejected, though it must be"),
+            (Inconclusive, Consistent, false, Standing::Unanswered, "inconclusive"),
+            (Inconclusive, Consistent, true, Standing::Unanswered, "inconclusive"),
+            (Unavailable, Rejected, false, Standing::Unanswered, "unavailable"),
+            (NotApplicable, Rejected, false, Standing::NotApplicable, "not applicable"),
+        ] {
+            let found = of(verdict, expected, known);
+            assert_eq!((found.standing(), found.answer()), (standing, answer));
+        }
+    }
+
+    #[test]
+    fn a_rejection_outweighs_a_missing_answer() {
+        let of = |verdicts: &[Verdict]| {
+            worst(&verdicts.iter().map(|&verdict| outcome("a", verdict)).collect::<Vec<_>>())
+        };
+        assert_eq!(of(&[Verdict::Consistent, Verdict::NotApplicable]), Standing::AsExpected);
+        assert_eq!(of(&[Verdict::Consistent, Verdict::Unavailable]), Standing::Unanswered);
+        assert_eq!(of(&[Verdict::Unavailable, Verdict::Rejected]), Standing::Against);
+        assert_eq!(of(&[]), Standing::NotApplicable);
     }
 }

@@ -1,11 +1,39 @@
 //! The answers of one run about one subject, as somebody's own test suite wants them.
 
+use super::diagnosis;
+use super::known::{self, OF_THE_LISTINGS};
+use super::outcome::{self, Outcome, Standing};
 use super::tolerance::GUESSES;
-use super::{Outcome, Suite, Verdict, diagnosis};
 use core::fmt;
+
+/// What a subject is measured by.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Suite {
+    /// Every claim, the hard cases among them: what a threshold should do.
+    #[default]
+    All,
+    /// As good as the paper: a rejection counts unless the paper's own listing is known to fail there too
+    /// ([`known`](super::known)).
+    Paper,
+}
+
+impl Suite {
+    /// Both suites.
+    pub const ALL: [Self; 2] = [Self::All, Self::Paper];
+
+    /// The word by which a user asks for it.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::All => "all",
+            Self::Paper => "paper",
+        }
+    }
+}
 
 /// What every claim said about a subject.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Results {
     /// One outcome a claim, in the order of the claims.
     pub outcomes: Vec<Outcome>,
@@ -18,20 +46,20 @@ impl Results {
     #[must_use]
     pub fn new(mut outcomes: Vec<Outcome>, suite: Suite) -> Self {
         if suite == Suite::Paper {
-            excuse_the_listings(&mut outcomes);
+            known::mark(&mut outcomes, OF_THE_LISTINGS);
         }
         Self { outcomes, suite }
     }
 
     /// Returns the outcomes that speak against the subject.
     pub fn news(&self) -> impl Iterator<Item = &Outcome> {
-        self.outcomes.iter().filter(|outcome| outcome.is_news())
+        self.outcomes.iter().filter(|outcome| outcome.standing().is_news())
     }
 
     /// Returns whether nothing speaks against the subject.
     #[must_use]
     pub fn is_consistent(&self) -> bool {
-        self.news().next().is_none()
+        !outcome::worst(&self.outcomes).is_news()
     }
 
     /// Does nothing where [`Results::is_consistent`] holds.
@@ -45,13 +73,6 @@ impl Results {
     }
 }
 
-/// Marks the rejections that the paper's own listings are known for.
-pub fn excuse_the_listings(outcomes: &mut [Outcome]) {
-    for outcome in outcomes.iter_mut().filter(|outcome| outcome.verdict == Verdict::Rejected) {
-        outcome.known = outcome.known.take().or_else(|| outcome.listing_fails.map(str::to_owned));
-    }
-}
-
 /// The claims that speak against the subject and what it looks like, or one line that says that none does.
 impl fmt::Display for Results {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -59,7 +80,7 @@ impl fmt::Display for Results {
             return f.write_str("no claim was tried");
         };
         let (news, all) = (self.news().count(), self.outcomes.len());
-        let known = self.outcomes.iter().filter(|outcome| outcome.known.is_some()).count();
+        let known = self.outcomes.iter().filter(|outcome| outcome.standing() == Standing::Known).count();
         write!(f, "{subject} in {precision}, suite {}, seed {seed}: ", self.suite.name())?;
         match news {
             0 => write!(f, "nothing in {all} claims speaks against it")?,
@@ -85,13 +106,15 @@ impl fmt::Display for Results {
 
 #[cfg(test)]
 mod tests {
+    use super::super::outcome::Verdict;
     use super::super::outcome::tests::outcome;
     use super::*;
+    use crate::threshold::two_scale::Variant;
 
     fn results(suite: Suite) -> Results {
         let failed_by_the_listing =
-            Outcome { listing_fails: Some("it divides by zero"), ..outcome("b", Verdict::Rejected) };
-        Results::new(vec![outcome("a", Verdict::Consistent), failed_by_the_listing], suite)
+            Outcome { variant: Variant::Isotropic, ..outcome("range.degenerate", Verdict::Rejected) };
+        Results::new(vec![outcome("range", Verdict::Consistent), failed_by_the_listing], suite)
     }
 
     #[test]
@@ -119,7 +142,7 @@ mod tests {
     }
 
     #[test]
-    #[should_panic(expected = "rejected: b (§5)")]
+    #[should_panic(expected = "rejected: range.degenerate (§5)")]
     fn a_rejection_panics_with_its_name() {
         results(Suite::All).assert();
     }

@@ -2,17 +2,15 @@
 
 use super::args::CheckArgs;
 use super::failure::Failure;
-use super::known::{self, Known};
-use super::shader_files::ShaderFile;
-use super::{Ending, drivers, output, shader_files, subjects};
-use hashed_alpha::check::claims::{self, Claim, exact::CELLS};
-use hashed_alpha::check::expectation::{Expectation, Judgement, judge};
-use hashed_alpha::check::results::excuse_the_listings;
-use hashed_alpha::check::{self, Draw, Outcome, Subject, Suite, Verdict};
+use super::subjects::{self, Asked, Place};
+use super::{Ending, drivers, known, output, shader_files};
+use hashed_alpha::check::claims::{self, exact::CELLS};
+use hashed_alpha::check::known::{Known, OF_THE_LISTINGS, mark};
+use hashed_alpha::check::outcome::worst;
+use hashed_alpha::check::{self, Claim, Draw, Outcome, Standing, Subject, Suite, Verdict};
 use hashed_alpha::report::by_model::by_model;
 use hashed_alpha::report::html::Run;
 use hashed_alpha::report::{directory, json, text};
-use hashed_alpha::shader::interpreter::DeviceModel;
 use indicatif::ProgressBar;
 use std::io::Write;
 use std::path::Path;
@@ -30,7 +28,10 @@ pub fn run(args: &CheckArgs) -> Result<Ending, Failure> {
     let words: Vec<_> = typed.iter().map(String::as_str).collect();
     shader_files::refuse_strays(&words, &args.shader)?;
     drivers::silence_for(typed, &args.shader);
-    let subjects = subjects::subjects(typed, &args.shader)?;
+    let asked = subjects::subjects(typed, &args.shader)?;
+    let models = under_models(&asked);
+    let (subjects, is_file): (Vec<Subject<'_>>, Vec<bool>) =
+        asked.into_iter().map(|asked| (asked.subject, asked.family.is_none())).unzip();
     let claims = chosen_claims(&args.only)?;
     let known = args.expect.as_deref().map(known::read).transpose()?.unwrap_or_default();
     let folder = (!args.no_report).then_some(args.out.as_path());
@@ -44,17 +45,16 @@ pub fn run(args: &CheckArgs) -> Result<Ending, Failure> {
     for (subject, remark) in subjects.iter().flat_map(|s| s.remarks().into_iter().map(move |r| (s, r))) {
         output::remark("note", format_args!("{}: {remark}", subject.name));
     }
-    hint_at_phase(&mut outcomes, &subjects, typed);
-    if args.suite == Suite::Paper {
-        excuse_the_listings(&mut outcomes);
-    }
-    let judgement = judge(&outcomes, &known.expectations);
-    for &index in &judgement.known {
-        let reason = known.reason(&outcomes[index]);
-        if !reason.is_empty() {
-            outcomes[index].known = Some(reason.to_owned());
+    for ((subject, is_file), outcomes) in subjects.iter().zip(is_file).zip(outcomes.chunks_mut(claims.len()))
+    {
+        if is_file && !subject.nested_phase {
+            outcomes.iter_mut().for_each(hint_at_phase);
         }
     }
+    if args.suite == Suite::Paper {
+        mark(&mut outcomes, OF_THE_LISTINGS);
+    }
+    mark(&mut outcomes, &known);
     if let Some(folder) = folder {
         directory::write_report(folder, &outcomes, &this_run(args.seed))?;
         output::remark("note", format_args!("the report is in {}", folder.join("index.html").display()));
@@ -63,28 +63,42 @@ pub fn run(args: &CheckArgs) -> Result<Ending, Failure> {
     let written = if args.json {
         json::write_json_lines(&outcomes, &mut *results)
     } else {
-        let models = DeviceModel::ALL.map(|model| model.name());
-        let tables = text::table(&outcomes, output::takes_colour()) + &by_model(&outcomes, &models);
+        let mut tables = text::table(&outcomes, output::takes_colour());
+        tables.extend(models.iter().map(|(name, models)| by_model(&outcomes, name, models)));
         results.write_all(tables.as_bytes())
     };
     written.and_then(|()| results.flush()).map_err(Failure::Output)?;
 
-    explain(&outcomes, &known, &judgement);
-    Ok(ending(&outcomes, &judgement))
+    explain(&outcomes, &known);
+    Ok(match worst(&outcomes) {
+        Standing::Against => Ending::Rejected,
+        Standing::Unanswered => Ending::NoVerdict,
+        Standing::Known | Standing::AsExpected | Standing::NotApplicable => Ending::Consistent,
+    })
+}
+
+/// The names of what was asked for under models of devices, each with the models and what it is called under them.
+fn under_models(asked: &[Asked]) -> Vec<(String, Vec<(&'static str, String)>)> {
+    let mut found: Vec<(String, Vec<_>)> = Vec::new();
+    for Asked { subject, name, place, .. } in asked {
+        let &Place::Model(model) = place else { continue };
+        let column = (model, subject.name.clone());
+        match found.iter_mut().find(|(other, _)| other == name) {
+            Some((_, columns)) => columns.push(column),
+            None => found.push((name.clone(), vec![column])),
+        }
+    }
+    found
 }
 
 /// Says with cells that are not where a file claims to have them that there is an option for another place.
-fn hint_at_phase(outcomes: &mut [Outcome], subjects: &[Subject<'_>], typed: &[String]) {
-    let files: Vec<_> = typed.iter().filter_map(|word| Some(ShaderFile::of(word)?.name())).collect();
-    for outcome in outcomes.iter_mut().filter(|o| o.check == CELLS.id && o.verdict == Verdict::Rejected) {
-        let is_plain = subjects.iter().any(|s| s.name == outcome.subject && !s.nested_phase);
-        if is_plain && files.iter().any(|file| outcome.subject.ends_with(file.as_str())) {
-            let seen = outcome.finding.take().unwrap_or_default();
-            outcome.finding = Some(format!(
-                "{seen}; where cells begin between whole numbers, as in every export of `shader` without --literal, say \
-                 --nested-phase"
-            ));
-        }
+fn hint_at_phase(outcome: &mut Outcome) {
+    if outcome.check == CELLS.id && outcome.verdict == Verdict::Rejected {
+        let seen = outcome.seen.take().unwrap_or_default();
+        outcome.seen = Some(format!(
+            "{seen}; where cells begin between whole numbers, as in every export of `shader` without --literal, say \
+             --nested-phase"
+        ));
     }
 }
 
@@ -141,34 +155,18 @@ fn is_due(told: &AtomicU64, seconds: u64) -> bool {
 }
 
 /// Says on stderr what the exit code rests on.
-fn explain(outcomes: &[Outcome], known: &Known, judgement: &Judgement) {
-    for &index in &judgement.unexpected {
-        let Outcome { check, subject, precision, verdict, .. } = &outcomes[index];
+fn explain(outcomes: &[Outcome], known: &[Known]) {
+    for Outcome { check, subject, precision, verdict, .. } in
+        outcomes.iter().filter(|outcome| outcome.standing().is_news())
+    {
         output::remark("unexpected", format_args!("{check} of {subject} in {precision} is {verdict}"));
     }
-    for &index in &judgement.stale {
-        let Expectation { check, subject, precision } = &known.expectations[index];
-        output::remark(
-            "stale",
-            format_args!("{check} of {subject} in {precision} is not rejected; take it off the list"),
-        );
+    for Known { check, who, .. } in known.iter().filter(|known| known.is_stale(outcomes)) {
+        output::remark("stale", format_args!("{check} of {who} is not rejected; take it off the list"));
     }
-    if !judgement.unmatched.is_empty() {
-        let count = judgement.unmatched.len();
-        output::remark("note", format_args!("known findings that name nothing which was tried: {count}"));
-    }
-}
-
-/// Tells what the answers come to: a known finding is none, and a missing answer weighs less than a wrong one.
-fn ending(outcomes: &[Outcome], judgement: &Judgement) -> Ending {
-    let answered =
-        |&index: &usize| matches!(outcomes[index].verdict, Verdict::Consistent | Verdict::Rejected);
-    if judgement.unexpected.iter().any(answered) {
-        Ending::Rejected
-    } else if judgement.unexpected.is_empty() {
-        Ending::Consistent
-    } else {
-        Ending::NoVerdict
+    let untried = known.iter().filter(|known| !known.was_tried(outcomes)).count();
+    if untried > 0 {
+        output::remark("note", format_args!("known findings that name nothing which was tried: {untried}"));
     }
 }
 
@@ -181,40 +179,5 @@ mod tests {
         let told = AtomicU64::new(0);
         let due = [0, 9, 10, 10, 19, 34, 39, 40].map(|seconds| is_due(&told, seconds));
         assert_eq!(due, [false, false, true, false, false, true, false, true]);
-    }
-
-    #[test]
-    fn a_rejection_outweighs_a_missing_answer() {
-        let outcome = |verdict| Outcome {
-            check: "family.claim",
-            anchor: "",
-            statement: "",
-            subject: String::new(),
-            precision: "f32",
-            verdict,
-            expected: Verdict::Consistent,
-            statistic: None,
-            statistic_name: String::new(),
-            n: 0,
-            p: None,
-            p_holm: None,
-            rounds: 1,
-            listing_fails: None,
-            effect: None,
-            effect_name: "",
-            detectable: None,
-            seed: 0,
-            finding: None,
-            known: None,
-            evidence: check::Evidence::None,
-        };
-        let ending_of = |verdicts: &[Verdict]| {
-            let outcomes: Vec<_> = verdicts.iter().copied().map(outcome).collect();
-            ending(&outcomes, &judge(&outcomes, &[]))
-        };
-        assert_eq!(ending_of(&[Verdict::Consistent, Verdict::NotApplicable]), Ending::Consistent);
-        assert_eq!(ending_of(&[Verdict::Consistent, Verdict::Unavailable]), Ending::NoVerdict);
-        assert_eq!(ending_of(&[Verdict::Inconclusive]), Ending::NoVerdict);
-        assert_eq!(ending_of(&[Verdict::Unavailable, Verdict::Rejected]), Ending::Rejected);
     }
 }

@@ -2,7 +2,8 @@
 
 use super::args::CompareArgs;
 use super::failure::Failure;
-use super::{Ending, drivers, output, shader_files, subjects};
+use super::subjects::{self, Asked, Family, Place};
+use super::{Ending, drivers, output, shader_files};
 use hashed_alpha::check::compare::{Agreement, compare};
 use hashed_alpha::check::{Draw, Subject};
 use std::io::Write;
@@ -26,7 +27,7 @@ pub fn run(args: &CompareArgs) -> Result<Ending, Failure> {
     let draw = Draw { seed: args.seed, budget: args.budget, round: 0 };
     let mut results = output::results();
     let mut ending = Ending::Consistent;
-    for (a, b) in pairs {
+    for [a, b] in pairs {
         let line = match compare(a, b, &draw) {
             Ok(found) => {
                 if found.agreement == Agreement::DifferentLaws {
@@ -41,8 +42,10 @@ pub fn run(args: &CompareArgs) -> Result<Ending, Failure> {
         };
         writeln!(results, "{} and {} in {}: {line}", a.name, b.name, a.precision).map_err(Failure::Output)?;
     }
-    let is_on_device = [&args.first, &args.second].into_iter().any(|typed| typed.starts_with("gpu:robust"));
-    if is_on_device && let Some(line) = hashes(args) {
+    let is_our_hash = |asked: &Asked| (asked.place, asked.family) == (Place::Device, Some(Family::Robust));
+    if left.iter().chain(&right).any(is_our_hash)
+        && let Some(line) = hashes(args)
+    {
         writeln!(results, "{line}").map_err(Failure::Output)?;
     }
     results.flush().map_err(Failure::Output)?;
@@ -81,13 +84,11 @@ fn hashes(_: &CompareArgs) -> Option<String> {
 }
 
 /// Subjects that belong together: of one variant, and of one precision where both have it.
-fn pairs<'a>(
-    left: &'a [Subject<'static>],
-    right: &'a [Subject<'static>],
-) -> Vec<(&'a Subject<'static>, &'a Subject<'static>)> {
-    left.iter()
-        .filter_map(|a| {
-            right.iter().find(|b| b.variant == a.variant && b.precision == a.precision).map(|b| (a, b))
-        })
-        .collect()
+fn pairs<'a>(left: &'a [Asked], right: &'a [Asked]) -> Vec<[&'a Subject<'static>; 2]> {
+    let is_twin = |a: &Subject<'_>, b: &Subject<'_>| b.variant == a.variant && b.precision == a.precision;
+    let of = |a: &'a Asked| {
+        let b = right.iter().find(|b| is_twin(&a.subject, &b.subject))?;
+        Some([&a.subject, &b.subject])
+    };
+    left.iter().filter_map(of).collect()
 }

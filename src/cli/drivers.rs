@@ -1,7 +1,7 @@
 //! Mesa's drivers, kept from writing to stderr.
 
-use super::args::{On, ShaderArgs};
-use super::shader_files::ShaderFile;
+use super::args::ShaderArgs;
+use super::subjects;
 
 /// Switches off the layer with which Mesa orders its Vulkan devices: without a display server it complains of
 /// `XDG_RUNTIME_DIR`, twice, on everybody's stderr.
@@ -26,16 +26,8 @@ pub fn silence() {
 pub fn silence() {}
 
 /// Does so where one of the subjects may run on a device.
-pub fn silence_for(subjects: &[String], args: &ShaderArgs) {
-    if subjects.iter().any(|word| may_need_a_device(word, args.on)) {
+pub fn silence_for(typed: &[String], args: &ShaderArgs) {
+    if typed.iter().any(|word| subjects::may_need_a_device(word, args.on)) {
         silence();
-    }
-}
-
-fn may_need_a_device(subject: &str, on: On) -> bool {
-    match on {
-        On::Gpu => true,
-        On::Auto => subject.starts_with("gpu:") || ShaderFile::of(subject).is_some(),
-        On::Cpu | On::DeviceModel => subject.starts_with("gpu:"),
     }
 }

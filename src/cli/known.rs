@@ -1,9 +1,9 @@
 //! The TOML list of known findings.
 
 use super::failure::Failure;
-use hashed_alpha::check::expectation::Expectation;
+use hashed_alpha::check::claims;
+use hashed_alpha::check::known::Known;
 use hashed_alpha::check::subject::Precision;
-use hashed_alpha::check::{Outcome, claims};
 use serde::de::Error;
 use serde::{Deserialize, Deserializer};
 use std::fs::File;
@@ -15,40 +15,25 @@ use std::path::Path;
 #[serde(deny_unknown_fields)]
 struct List {
     #[serde(default)]
-    finding: Vec<Finding>,
+    finding: Vec<Written>,
 }
 
-/// One finding as it is written.
+/// One known finding as it is written.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Finding {
+struct Written {
     #[serde(deserialize_with = "claim")]
     check: String,
     subject: String,
     #[serde(deserialize_with = "precision")]
-    precision: String,
+    precision: Precision,
     #[serde(deserialize_with = "reason")]
     reason: String,
 }
 
-/// The known findings, each with the reason why it is accepted.
-#[derive(Debug, Default, PartialEq)]
-pub struct Known {
-    /// The findings.
-    pub expectations: Vec<Expectation>,
-    /// A reason for each of them.
-    pub reasons: Vec<String>,
-}
-
-impl Known {
-    /// Returns the reason why an outcome is accepted; empty for one that is not on the list.
-    pub fn reason(&self, outcome: &Outcome) -> &str {
-        let is_listed = |known: &Expectation| {
-            known.check == outcome.check
-                && known.subject == outcome.subject
-                && known.precision == outcome.precision
-        };
-        self.expectations.iter().position(is_listed).map_or("", |index| &self.reasons[index])
+impl From<Written> for Known {
+    fn from(Written { check, subject, precision, reason }: Written) -> Self {
+        Self::of_subject(check, subject, precision, reason)
     }
 }
 
@@ -56,7 +41,7 @@ impl Known {
 const LONGEST_LIST: u64 = 1 << 20;
 
 /// Reads a list from a file.
-pub fn read(file: &Path) -> Result<Known, Failure> {
+pub fn read(file: &Path) -> Result<Vec<Known>, Failure> {
     let place = file.display().to_string();
     let mut text = String::new();
     let read = File::open(file).and_then(|list| list.take(LONGEST_LIST + 1).read_to_string(&mut text));
@@ -71,22 +56,17 @@ pub fn read(file: &Path) -> Result<Known, Failure> {
     }
 }
 
-fn parse(text: &str) -> Result<Known, toml::de::Error> {
-    let list: List = toml::from_str(text)?;
-    let mut known = Known::default();
-    for Finding { check, subject, precision, reason } in list.finding {
-        known.expectations.push(Expectation { check, subject, precision });
-        known.reasons.push(reason);
-    }
-    Ok(known)
+fn parse(text: &str) -> Result<Vec<Known>, toml::de::Error> {
+    toml::from_str(text).map(|list: List| list.finding.into_iter().map(Known::from).collect())
 }
 
 fn claim<'de, D: Deserializer<'de>>(deserializer: D) -> Result<String, D::Error> {
     one_of(&claims::ALL.iter().map(|claim| claim.id).collect::<Vec<_>>(), deserializer)
 }
 
-fn precision<'de, D: Deserializer<'de>>(deserializer: D) -> Result<String, D::Error> {
-    one_of(&Precision::ALL.map(Precision::name), deserializer)
+fn precision<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Precision, D::Error> {
+    let name = one_of(&Precision::ALL.map(Precision::name), deserializer)?;
+    Ok(if name == Precision::F64.name() { Precision::F64 } else { Precision::F32 })
 }
 
 fn reason<'de, D: Deserializer<'de>>(deserializer: D) -> Result<String, D::Error> {
@@ -123,9 +103,10 @@ reason = "all cells of one z share a bias"
     #[test]
     fn a_list_is_read() {
         let known = parse(LIST).unwrap();
-        assert_eq!(known.expectations[0].check, "uniform.constant_z");
-        assert_eq!(known.reasons, ["all cells of one z share a bias"]);
-        assert_eq!(parse("# nothing is known"), Ok(Known::default()));
+        let [check, subject, reason] =
+            ["uniform.constant_z", "paper:isotropic", "all cells of one z share a bias"].map(str::to_owned);
+        assert_eq!(known, [Known::of_subject(check, subject, Precision::F32, reason)]);
+        assert_eq!(parse("# nothing is known"), Ok(Vec::new()));
     }
 
     #[test]

@@ -14,56 +14,137 @@ use hashed_alpha::threshold::robust::{Join, Robust};
 use hashed_alpha::threshold::two_scale::Variant;
 use std::path::Path;
 
+/// A subject as it was typed: `paper`, `robust:isotropic`, `gpu:robust`, `cpu:paper`, or a shader file.
+struct Typed<'a> {
+    /// Where it is to run, where that was typed with it.
+    on: Option<On>,
+    what: What<'a>,
+}
+
+enum What<'a> {
+    File(ShaderFile<'a>),
+    BuiltIn(&'a str),
+}
+
+impl<'a> Typed<'a> {
+    fn of(word: &'a str) -> Self {
+        if let Some(file) = ShaderFile::of(word) {
+            return Self { on: None, what: What::File(file) };
+        }
+        let (on, name) = match word.split_once(':') {
+            Some(("gpu", name)) => (Some(On::Gpu), name),
+            Some(("cpu", name)) => (Some(On::Cpu), name),
+            _ => (None, word),
+        };
+        Self { on, what: What::BuiltIn(name) }
+    }
+}
+
+/// Whether a subject may run on a device.
+pub fn may_need_a_device(word: &str, on: On) -> bool {
+    let typed = Typed::of(word);
+    match typed.on.unwrap_or(on) {
+        On::Gpu => true,
+        On::Auto => matches!(typed.what, What::File(_)),
+        On::Cpu | On::DeviceModel => false,
+    }
+}
+
+/// Whether a subject is one of this program's own, in Rust.
+pub fn is_in_rust(word: &str, on: On) -> bool {
+    let typed = Typed::of(word);
+    matches!((typed.what, typed.on.unwrap_or(on)), (What::BuiltIn(_), On::Auto | On::Cpu))
+}
+
+/// The families of thresholds that this program has itself.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Family {
+    /// The listings to the letter.
+    Paper,
+    /// The robust threshold.
+    Robust,
+}
+
+/// Where a subject runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// Here, in Rust.
+    Rust,
+    /// In the interpreter, as accurately as it can.
+    Interpreter,
+    /// In the interpreter, under a model of a device of this name.
+    Model(&'static str),
+    /// On a device.
+    Device,
+}
+
+/// A subject that was asked for.
+pub struct Asked {
+    /// The subject.
+    pub subject: Subject<'static>,
+    /// Its name without the place where it runs.
+    pub name: String,
+    /// Where it runs.
+    pub place: Place,
+    /// Its family; none for a file.
+    pub family: Option<Family>,
+}
+
 /// Returns the subjects that were typed, each once: built-in ones by their name or its part before a colon, `gpu:` before it
 /// for a device and `cpu:` for what has no prefix; files by their name.
-pub fn subjects(typed: &[String], args: &ShaderArgs) -> Result<Vec<Subject<'static>>, Failure> {
-    let mut found: Vec<Subject<'static>> = Vec::new();
+pub fn subjects(typed: &[String], args: &ShaderArgs) -> Result<Vec<Asked>, Failure> {
+    let mut found: Vec<Asked> = Vec::new();
     for word in typed {
-        let more = ShaderFile::of(word).map_or_else(|| built_in(word, args), |typed| file(&typed, args))?;
-        for subject in more {
-            if !found.iter().any(|other| other.name == subject.name && other.precision == subject.precision) {
-                found.push(subject);
+        let typed = Typed::of(word);
+        let more = match &typed.what {
+            What::File(typed) => file(typed, args)?,
+            What::BuiltIn(name) => {
+                built_in(name, typed.on.unwrap_or(args.on), args)?.ok_or_else(|| unknown(word))?
+            }
+        };
+        for asked in more {
+            let is_same = |a: &Subject<'_>, b: &Subject<'_>| a.name == b.name && a.precision == b.precision;
+            if !found.iter().any(|other| is_same(&other.subject, &asked.subject)) {
+                found.push(asked);
             }
         }
     }
     Ok(found)
 }
 
-/// Whether a subject is one of this program's own, in Rust.
-pub fn is_in_rust(word: &str, on: On) -> bool {
-    let runs_here = match word.split_once(':') {
-        Some(("gpu", _)) => false,
-        Some(("cpu", _)) => true,
-        _ => matches!(on, On::Auto | On::Cpu),
-    };
-    runs_here && ShaderFile::of(word).is_none()
+fn unknown(word: &str) -> Failure {
+    Failure::Usage(format!(
+        "unknown subject `{word}`; known are paper:isotropic, paper:anisotropic, robust:isotropic, \
+         robust:anisotropic, each with gpu: before it too, and files that end in .wgsl, .glsl, .frag, .vert, .comp, .fs, .vs or .spv"
+    ))
 }
 
-fn built_in(word: &str, args: &ShaderArgs) -> Result<Vec<Subject<'static>>, Failure> {
-    let (on, name) = match word.split_once(':') {
-        Some(("gpu", name)) => (On::Gpu, name),
-        Some(("cpu", name)) => (On::Cpu, name),
-        _ => (args.on, word),
+/// Returns the subjects of a family, or of one variant of it; nothing where there is none of that name.
+fn built_in(name: &str, on: On, args: &ShaderArgs) -> Result<Option<Vec<Asked>>, Failure> {
+    let (family, variant) = name.split_once(':').map_or((name, None), |(family, of)| (family, Some(of)));
+    let (family, mut all) = match family {
+        "paper" => (Family::Paper, Subject::paper()),
+        "robust" => (Family::Robust, Subject::all_repairs()),
+        _ => return Ok(None),
     };
-    let mut all = Subject::paper();
-    all.extend(Subject::all_repairs());
-    all.retain(|subject| {
-        subject.name.strip_prefix(name).is_some_and(|rest| rest.is_empty() || rest.starts_with(':'))
-    });
+    all.retain(|subject| variant.is_none_or(|variant| subject.variant.name() == variant));
     if all.is_empty() {
-        return Err(Failure::Usage(format!(
-            "unknown subject `{word}`; known are paper:isotropic, paper:anisotropic, robust:isotropic, \
-             robust:anisotropic, each with gpu: before it too, and files that end in .wgsl, .glsl, .frag, .vert, .comp, .fs, .vs or .spv"
-        )));
+        return Ok(None);
     }
     if matches!(on, On::Auto | On::Cpu) {
-        return Ok(all);
+        let here = |subject: Subject<'static>| {
+            let name = subject.name.clone();
+            Asked { subject, name, place: Place::Rust, family: Some(family) }
+        };
+        return Ok(Some(all.into_iter().map(here).collect()));
     }
     all.retain(|subject| subject.precision == Precision::F32);
     let mut found = Vec::new();
     for twin in all {
-        let literal = twin.name.starts_with("paper");
-        let pipeline = if literal { Pipeline::listing } else { Pipeline::robust }(twin.variant);
+        let pipeline = match family {
+            Family::Paper => Pipeline::listing(twin.variant),
+            Family::Robust => Pipeline::robust(twin.variant),
+        };
         let shader = own::assembled(&twin.name, pipeline)?;
         let claims = Claimed {
             variant: twin.variant,
@@ -72,9 +153,9 @@ fn built_in(word: &str, args: &ShaderArgs) -> Result<Vec<Subject<'static>>, Fail
             hash_scale: 1.0,
             frames: 1,
         };
-        found.extend(placed(&twin.name, &shader, on, args, &claims)?);
+        found.extend(placed(&twin.name, &shader, on, args, &claims, Some(family))?);
     }
-    Ok(found)
+    Ok(Some(found))
 }
 
 /// What a shader claims of itself.
@@ -86,7 +167,7 @@ struct Claimed {
     frames: u32,
 }
 
-fn file(typed: &ShaderFile<'_>, args: &ShaderArgs) -> Result<Vec<Subject<'static>>, Failure> {
+fn file(typed: &ShaderFile<'_>, args: &ShaderArgs) -> Result<Vec<Asked>, Failure> {
     let options = typed.options(args)?;
     let set = || options.settings.get("hash_scale").and_then(|value| value.parse().ok());
     let hash_scale = args.hash_scale.or_else(set).unwrap_or(1.0);
@@ -101,8 +182,8 @@ fn file(typed: &ShaderFile<'_>, args: &ShaderArgs) -> Result<Vec<Subject<'static
     };
     let name = typed.name();
     let remarks = stops(&shader, args.variant)?;
-    let subjects = placed(&name, &shader, args.on, args, &claims)?;
-    if subjects.iter().any(|subject| subject.name.starts_with("gpu:")) {
+    let subjects = placed(&name, &shader, args.on, args, &claims, None)?;
+    if subjects.iter().any(|asked| asked.place == Place::Device) {
         // A device does not tell.
         remarks.iter().for_each(|remark| output::remark("note", remark));
     }
@@ -128,39 +209,49 @@ fn placed(
     on: On,
     args: &ShaderArgs,
     claims: &Claimed,
-) -> Result<Vec<Subject<'static>>, Failure> {
+    family: Option<Family>,
+) -> Result<Vec<Asked>, Failure> {
     let interpreted = |name: String, model| {
         shaders::interpreted(name, shader, model, claims.variant).map_err(Failure::from)
     };
-    let mut subjects = match on {
-        On::Cpu => vec![interpreted(name.to_owned(), DeviceModel::ACCURATE)?],
+    let accurate =
+        || Ok::<_, Failure>((Place::Interpreter, interpreted(name.to_owned(), DeviceModel::ACCURATE)?));
+    let on_device = || Ok::<_, Failure>((Place::Device, on_device(name, shader, args, claims.variant)?));
+    let subjects = match on {
+        On::Cpu => vec![accurate()?],
         On::DeviceModel => DeviceModel::ALL
             .into_iter()
-            .map(|model| interpreted(format!("{}:{name}", model.name()), model))
-            .collect::<Result<_, _>>()?,
-        On::Gpu => vec![on_device(name, shader, args, claims.variant)?],
+            .map(|model| {
+                let subject = interpreted(format!("{}:{name}", model.name()), model)?;
+                Ok((Place::Model(model.name()), subject))
+            })
+            .collect::<Result<_, Failure>>()?,
+        On::Gpu => vec![on_device()?],
         On::Auto => {
-            let refused = match on_device(name, shader, args, claims.variant) {
-                Ok(subject) if subject.failure().is_none() => Ok(subject),
-                Ok(subject) => Err(subject.failure().unwrap_or_default().to_owned()),
+            let refused = match on_device() {
+                Ok((_, subject)) if subject.failure().is_some() => {
+                    Err(subject.failure().unwrap_or_default().to_owned())
+                }
+                Ok(placed) => Ok(placed),
                 Err(failure) => Err(failure.message()),
             };
             vec![match refused {
-                Ok(subject) => subject,
+                Ok(placed) => placed,
                 Err(reason) => {
                     output::remark("note", format_args!("{name} runs in the interpreter: {reason}"));
-                    interpreted(name.to_owned(), DeviceModel::ACCURATE)?
+                    accurate()?
                 }
             }]
         }
     };
-    for subject in &mut subjects {
+    let claiming = |(place, mut subject): (Place, Subject<'static>)| {
         subject.join = claims.join;
         subject.nested_phase = claims.nested_phase;
         subject.hash_scale = claims.hash_scale;
         subject.frames = claims.frames;
-    }
-    Ok(subjects)
+        Asked { subject, name: name.to_owned(), place, family }
+    };
+    Ok(subjects.into_iter().map(claiming).collect())
 }
 
 /// Puts a shader on the device that is wanted; without one, a subject that says so.
@@ -217,7 +308,10 @@ mod tests {
         let args = Typed::parse_from(["hashed-alpha"].iter().chain(options)).shader;
         let typed: Vec<String> = typed.iter().map(ToString::to_string).collect();
         let found = subjects(&typed, &args).map_err(|error| error.to_string())?;
-        Ok(found.iter().map(|subject| format!("{} {}", subject.name, subject.precision)).collect())
+        Ok(found
+            .iter()
+            .map(|Asked { subject, .. }| format!("{} {}", subject.name, subject.precision))
+            .collect())
     }
 
     #[test]

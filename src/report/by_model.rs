@@ -1,45 +1,41 @@
 //! Which claims hold on which device models: one line a claim, one column a model.
 
-use crate::check::{Outcome, Verdict};
+use crate::check::{Outcome, Standing, Verdict};
 use std::fmt::Write as _;
 
 const GAP: &str = "  ";
 
-/// Returns one table for every subject that was tried under several models; `models` are their names, and a subject is
-/// called `MODEL:NAME`. Empty where there is none.
+/// Returns the table of a subject that was tried under several models, each of which is given with the name that the subject
+/// has under it. Empty where none of them was tried.
 #[must_use]
-pub fn by_model(outcomes: &[Outcome], models: &[&str]) -> String {
-    let parts = |outcome: &Outcome| {
-        let (model, name) = outcome.subject.split_once(':')?;
-        let column = models.iter().position(|&known| known == model)?;
-        Some((column, name.to_owned()))
-    };
-    let mut names: Vec<String> = outcomes.iter().filter_map(parts).map(|(_, name)| name).collect();
-    names.sort_unstable();
-    names.dedup();
+pub fn by_model(outcomes: &[Outcome], name: &str, models: &[(&str, String)]) -> String {
+    let mut rows: Vec<(&str, Vec<&str>)> = Vec::new();
+    for outcome in outcomes {
+        let Some(column) = models.iter().position(|(_, subject)| *subject == outcome.subject) else {
+            continue;
+        };
+        let at = rows.iter().position(|(claim, _)| *claim == outcome.check).unwrap_or_else(|| {
+            rows.push((outcome.check, vec!["-"; models.len()]));
+            rows.len() - 1
+        });
+        rows[at].1[column] = word(outcome);
+    }
     let mut text = String::new();
-    for name in names {
-        let mut rows: Vec<(&str, Vec<&str>)> = Vec::new();
-        for outcome in outcomes {
-            let Some((column, _)) = parts(outcome).filter(|(_, found)| *found == name) else { continue };
-            let at = rows.iter().position(|(claim, _)| *claim == outcome.check).unwrap_or_else(|| {
-                rows.push((outcome.check, vec!["-"; models.len()]));
-                rows.len() - 1
-            });
-            rows[at].1[column] = word(outcome);
-        }
-        push_table(&mut text, &name, models, &rows);
+    if !rows.is_empty() {
+        let models: Vec<&str> = models.iter().map(|(model, _)| *model).collect();
+        push_table(&mut text, name, &models, &rows);
     }
     text
 }
 
 fn word(outcome: &Outcome) -> &'static str {
-    match outcome.verdict {
-        verdict if verdict == outcome.expected => "holds",
-        Verdict::Consistent | Verdict::Rejected => "fails",
-        Verdict::Inconclusive => "unclear",
-        Verdict::Unavailable => "not run",
-        Verdict::NotApplicable => "-",
+    match outcome.standing() {
+        Standing::AsExpected => "holds",
+        Standing::Against => "fails",
+        Standing::Known => "known",
+        Standing::Unanswered if outcome.verdict == Verdict::Unavailable => "not run",
+        Standing::Unanswered => "unclear",
+        Standing::NotApplicable => "-",
     }
 }
 
@@ -77,9 +73,10 @@ mod tests {
             of("half:my.wgsl", "uniform", Verdict::Rejected),
             of("other", "range", Verdict::Rejected),
         ];
-        let text = by_model(&outcomes, &["accurate", "half"]);
+        let models = ["accurate", "half"].map(|model| (model, format!("{model}:my.wgsl")));
+        let text = by_model(&outcomes, "my.wgsl", &models);
         let expected = "my.wgsl  accurate  half\nrange    holds     holds\nuniform  holds     fails\n";
         assert_eq!(text, expected);
-        assert_eq!(by_model(&outcomes[4..], &["accurate", "half"]), "");
+        assert_eq!(by_model(&outcomes[4..], "my.wgsl", &models), "");
     }
 }

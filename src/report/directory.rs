@@ -149,7 +149,7 @@ fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
 fn picture_names(outcomes: &[Outcome]) -> Vec<Option<String>> {
     let mut taken = BTreeSet::new();
     let mut name = |outcome: &Outcome| {
-        let parts = [outcome.check, &outcome.subject, outcome.precision].map(sanitised);
+        let parts = [outcome.check, &outcome.subject, outcome.precision.name()].map(sanitised);
         let stem = parts.join("--");
         let numbered = (2..).map(|number| format!("{stem}-{number}.svg"));
         let mut candidates = std::iter::once(format!("{stem}.svg")).chain(numbered);

@@ -1,7 +1,9 @@
 //! Outcomes of every kind, for the tests of this wing.
 
 use crate::check::evidence::{ComparedShare, NamedHistogram};
+use crate::check::subject::Precision;
 use crate::check::{Evidence, Outcome, Verdict};
+use crate::threshold::two_scale::Variant;
 
 /// An outcome without remark.
 pub fn consistent() -> Outcome {
@@ -10,7 +12,8 @@ pub fn consistent() -> Outcome {
         anchor: "§5.4.2, Eq. 2",
         statement: "Thresholds are uniform for every lerp factor.",
         subject: "paper:isotropic".to_owned(),
-        precision: "f32",
+        variant: Variant::Single,
+        precision: Precision::F32,
         verdict: Verdict::Consistent,
         expected: Verdict::Consistent,
         statistic: Some(61.237),
@@ -22,10 +25,9 @@ pub fn consistent() -> Outcome {
         effect_name: "excess chi-square per sample",
         detectable: Some(1.6e-4),
         seed: 18_446_744_073_709_551_615,
-        finding: None,
+        seen: None,
         known: None,
         rounds: 1,
-        listing_fails: None,
         evidence: Evidence::Histograms(vec![NamedHistogram {
             name: "all".to_owned(),
             counts: vec![9, 11, 10, 10],
@@ -35,7 +37,7 @@ pub fn consistent() -> Outcome {
 
 /// One outcome of every kind.
 pub fn outcomes() -> Vec<Outcome> {
-    let finding = |text: &str| Some(text.to_owned());
+    let seen = |text: &str| Some(text.to_owned());
     let shares = ["along x", "along y"].map(|series| ComparedShare {
         series: series.to_owned(),
         x: 0.25,
@@ -54,11 +56,11 @@ pub fn outcomes() -> Vec<Outcome> {
             statistic: Some(f64::INFINITY),
             p: Some(0.0),
             p_holm: Some(0.0),
-            finding: finding(
+            seen: seen(
                 "of 65536 thresholds 37 % change where 18 % are predicted: the derivative along screen y looks like \
                  the one along screen x, and the finer of the two scales is twice as fine as Listing 1 says",
             ),
-            evidence: Evidence::Comparison(shares.to_vec()),
+            evidence: Evidence::Shares { abscissa: "shift [pixels]", points: shares.to_vec() },
             ..consistent()
         },
         Outcome {
@@ -67,7 +69,7 @@ pub fn outcomes() -> Vec<Outcome> {
             verdict: Verdict::Rejected,
             expected: Verdict::Rejected,
             p_holm: Some(3.1e-200),
-            finding: finding("neighbouring cells share a factor"),
+            seen: seen("neighbouring cells share a factor"),
             evidence: Evidence::Pairs { side: 2, counts: vec![90, 110, 100, 100] },
             ..consistent()
         },
@@ -80,14 +82,14 @@ pub fn outcomes() -> Vec<Outcome> {
         },
         Outcome {
             check: "range.finite",
-            precision: "f64",
+            precision: Precision::F64,
             verdict: Verdict::Inconclusive,
             p: None,
             p_holm: None,
             statistic: None,
             effect: Some(f64::NAN),
             detectable: None,
-            finding: finding("12 samples; 1000 are needed"),
+            seen: seen("12 samples; 1000 are needed"),
             evidence: Evidence::None,
             ..consistent()
         },
@@ -96,7 +98,7 @@ pub fn outcomes() -> Vec<Outcome> {
             subject: "gpu:paper".to_owned(),
             verdict: Verdict::Unavailable,
             n: 0,
-            finding: finding("no adapter"),
+            seen: seen("no adapter"),
             evidence: Evidence::None,
             ..consistent()
         },

@@ -1,9 +1,9 @@
 //! The outcomes as one page: no scripts, nothing from elsewhere, pictures in files beside it.
 
-use super::answer;
 use super::text::{number, remark, summary};
 use crate::check::diagnosis::{Diagnosis, diagnoses};
-use crate::check::{Outcome, Verdict};
+use crate::check::outcome::worst;
+use crate::check::{Outcome, Standing};
 use minijinja::value::Serde;
 use minijinja::{Environment, context};
 use serde::Serialize;
@@ -22,8 +22,9 @@ pub struct Run {
 /// Where the template comes from: a name that ends in `html` turns escaping on.
 const TEMPLATE: &str = "page.html";
 
+/// An outcome as the page shows it.
 #[derive(Serialize)]
-struct Claim<'a> {
+struct Shown<'a> {
     id: String,
     check: &'a str,
     anchor: &'a str,
@@ -32,6 +33,8 @@ struct Claim<'a> {
     precision: &'a str,
     verdict: &'static str,
     class: &'static str,
+    #[serde(skip)]
+    standing: Standing,
     remark: Option<String>,
     n: u64,
     statistic: String,
@@ -47,14 +50,14 @@ struct Claim<'a> {
 
 /// A row of the overview: one claim, and for each subject a link to its answer.
 #[derive(Serialize)]
-struct Row<'a> {
+struct OverviewRow<'a> {
     check: &'a str,
-    cells: Vec<Option<Cell>>,
+    cells: Vec<Option<OverviewCell>>,
 }
 
 /// An answer in the overview.
 #[derive(Serialize)]
-struct Cell {
+struct OverviewCell {
     id: String,
     class: &'static str,
     verdict: &'static str,
@@ -62,17 +65,17 @@ struct Cell {
 }
 
 /// Returns the names of the subjects, and the claims in rows over them; nothing where one subject makes a table enough.
-fn overview<'a>(claims: &[Claim<'a>]) -> (Vec<String>, Vec<Row<'a>>) {
-    let name = |claim: &Claim<'a>| format!("{} {}", claim.subject, claim.precision);
+fn overview<'a>(claims: &[Shown<'a>]) -> (Vec<String>, Vec<OverviewRow<'a>>) {
+    let name = |claim: &Shown<'a>| format!("{} {}", claim.subject, claim.precision);
     let mut subjects: Vec<String> = Vec::new();
-    let mut rows: Vec<Row<'a>> = Vec::new();
+    let mut rows: Vec<OverviewRow<'a>> = Vec::new();
     for claim in claims {
         let name = name(claim);
         if !subjects.contains(&name) {
             subjects.push(name);
         }
         if !rows.iter().any(|row| row.check == claim.check) {
-            rows.push(Row { check: claim.check, cells: Vec::new() });
+            rows.push(OverviewRow { check: claim.check, cells: Vec::new() });
         }
     }
     for row in &mut rows {
@@ -82,15 +85,15 @@ fn overview<'a>(claims: &[Claim<'a>]) -> (Vec<String>, Vec<Row<'a>>) {
     if subjects.len() > 1 { (subjects, rows) } else { (Vec::new(), Vec::new()) }
 }
 
-fn cell(claim: &Claim<'_>) -> Cell {
-    let sign = match claim.class {
-        "good" => "✓",
-        "bad" => "✗",
-        "known" => "(✗)",
-        "open" => "?",
-        _ => "–",
+fn cell(claim: &Shown<'_>) -> OverviewCell {
+    let sign = match claim.standing {
+        Standing::AsExpected => "✓",
+        Standing::Against => "✗",
+        Standing::Known => "(✗)",
+        Standing::Unanswered => "?",
+        Standing::NotApplicable => "–",
     };
-    Cell { id: claim.id.clone(), class: claim.class, verdict: claim.verdict, sign }
+    OverviewCell { id: claim.id.clone(), class: claim.class, verdict: claim.verdict, sign }
 }
 
 /// Returns the page.
@@ -111,15 +114,13 @@ pub fn page(
     let claims: Vec<_> =
         outcomes.iter().zip(pictures).enumerate().map(|(i, (o, p))| claim(i, o, p)).collect();
     let (subjects, rows) = overview(&claims);
-    let mut listed: Vec<&Claim<'_>> = claims.iter().collect();
+    let mut listed: Vec<&Shown<'_>> = claims.iter().collect();
     // What needs a reader comes first.
-    listed.sort_by_key(|claim| {
-        ["bad", "open", "known"].iter().position(|class| *class == claim.class).unwrap_or(3)
-    });
-    let (headline, class) = headline(outcomes);
+    listed.sort_by_key(|claim| claim.standing.min(Standing::AsExpected));
+    let (headline, standing) = headline(outcomes);
     environment.get_template(TEMPLATE)?.render(context! {
         headline,
-        class,
+        class => class(standing),
         summary => summary(outcomes),
         command => run.command.as_str(),
         // As text: a template engine may hold numbers as `f64`.
@@ -132,17 +133,18 @@ pub fn page(
     })
 }
 
-fn claim<'a>(index: usize, outcome: &'a Outcome, picture: Option<&'a str>) -> Claim<'a> {
-    let verdict = answer(outcome);
-    Claim {
+fn claim<'a>(index: usize, outcome: &'a Outcome, picture: Option<&'a str>) -> Shown<'a> {
+    let (verdict, standing) = (outcome.answer(), outcome.standing());
+    Shown {
         id: format!("claim-{}", index + 1),
         check: outcome.check,
         anchor: outcome.anchor,
         statement: outcome.statement,
         subject: &outcome.subject,
-        precision: outcome.precision,
+        precision: outcome.precision.name(),
         verdict,
-        class: class(outcome),
+        class: class(standing),
+        standing,
         remark: remark(outcome),
         n: outcome.n,
         statistic: number(outcome.statistic),
@@ -182,38 +184,41 @@ fn lookalikes(outcomes: &[Outcome]) -> Vec<Lookalike> {
     diagnoses(outcomes).into_iter().flat_map(of_subject).collect()
 }
 
-/// The class of a badge: what a reader should make of the outcome.
-fn class(outcome: &Outcome) -> &'static str {
-    match outcome.verdict {
-        Verdict::NotApplicable => "idle",
-        _ if outcome.as_expected() => "good",
-        Verdict::Rejected if outcome.known.is_some() => "known",
-        Verdict::Consistent | Verdict::Rejected => "bad",
-        Verdict::Inconclusive | Verdict::Unavailable => "open",
+/// The style of a badge.
+const fn class(standing: Standing) -> &'static str {
+    match standing {
+        Standing::Against => "bad",
+        Standing::Unanswered => "open",
+        Standing::Known => "known",
+        Standing::AsExpected => "good",
+        Standing::NotApplicable => "idle",
     }
 }
 
-/// Returns the answer in one sentence, and its class.
-fn headline(outcomes: &[Outcome]) -> (String, &'static str) {
-    let of = |wanted: &str| outcomes.iter().filter(|outcome| class(outcome) == wanted).count();
+/// Returns the answer in one sentence, and what it is worth.
+fn headline(outcomes: &[Outcome]) -> (String, Standing) {
+    let of = |wanted: Standing| outcomes.iter().filter(|outcome| outcome.standing() == wanted).count();
     let all = outcomes.len();
-    let verb = |n: usize| if n == 1 { "is" } else { "are" };
-    match (of("bad"), of("open"), of("good")) {
-        (0, 0, _) if of("known") > 0 => {
-            (format!("All {all} claims are as expected, {} of them known findings", of("known")), "known")
+    let worst = worst(outcomes);
+    let text = match worst {
+        Standing::Against => {
+            let bad = of(worst);
+            format!("{bad} of {all} claims {} not as expected", if bad == 1 { "is" } else { "are" })
         }
-        (0, 0, 0) => ("Nothing was tried".to_owned(), "idle"),
-        (0, 0, 1) => ("1 claim is as expected".to_owned(), "good"),
-        (0, 0, good) => (format!("All {good} claims are as expected"), "good"),
-        (0, open, _) => (format!("There is no verdict on {open} of {all} claims"), "open"),
-        (bad, _, _) => (format!("{bad} of {all} claims {} not as expected", verb(bad)), "bad"),
-    }
+        Standing::Unanswered => format!("There is no verdict on {} of {all} claims", of(worst)),
+        Standing::Known => format!("All {all} claims are as expected, {} of them known findings", of(worst)),
+        Standing::AsExpected if of(worst) == 1 => "1 claim is as expected".to_owned(),
+        Standing::AsExpected => format!("All {} claims are as expected", of(worst)),
+        Standing::NotApplicable => "Nothing was tried".to_owned(),
+    };
+    (text, worst)
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::example;
     use super::*;
+    use crate::check::Verdict;
 
     fn run() -> Run {
         Run { command: "hashed-alpha check '<b>'".to_owned(), seed: u64::MAX, version: "0.1.0".to_owned() }
@@ -279,9 +284,12 @@ mod tests {
     #[test]
     fn headline_names_the_worst() {
         let all = example::outcomes();
-        assert_eq!(headline(&all[..1]), ("1 claim is as expected".to_owned(), "good"));
-        assert_eq!(headline(&all[4..]), ("There is no verdict on 2 of 3 claims".to_owned(), "open"));
-        assert_eq!(headline(&all[1..2]), ("1 of 1 claims is not as expected".to_owned(), "bad"));
-        assert_eq!(headline(&all[6..]), ("Nothing was tried".to_owned(), "idle"));
+        assert_eq!(headline(&all[..1]), ("1 claim is as expected".to_owned(), Standing::AsExpected));
+        assert_eq!(
+            headline(&all[4..]),
+            ("There is no verdict on 2 of 3 claims".to_owned(), Standing::Unanswered)
+        );
+        assert_eq!(headline(&all[1..2]), ("1 of 1 claims is not as expected".to_owned(), Standing::Against));
+        assert_eq!(headline(&all[6..]), ("Nothing was tried".to_owned(), Standing::NotApplicable));
     }
 }

@@ -1,6 +1,7 @@
 //! The outcomes as JSON Lines: one object a claim, in the order in which the claims were tried.
 
 use crate::check::Outcome;
+use crate::check::known::listing_fails;
 use serde::Serialize;
 use std::io::{self, Write};
 
@@ -31,6 +32,7 @@ struct Line<'a> {
     known: Option<&'a str>,
     rounds: u32,
     listing_fails: Option<&'a str>,
+    standing: &'a str,
 }
 
 impl<'a> From<&'a Outcome> for Line<'a> {
@@ -41,7 +43,7 @@ impl<'a> From<&'a Outcome> for Line<'a> {
             check: outcome.check,
             anchor: outcome.anchor,
             subject: &outcome.subject,
-            precision: outcome.precision,
+            precision: outcome.precision.name(),
             verdict: outcome.verdict.name(),
             statistic: finite(outcome.statistic),
             n: outcome.n,
@@ -50,14 +52,15 @@ impl<'a> From<&'a Outcome> for Line<'a> {
             effect: finite(outcome.effect),
             detectable: finite(outcome.detectable),
             seed: outcome.seed,
-            finding: outcome.finding.as_deref(),
+            finding: outcome.seen.as_deref(),
             expected: outcome.expected.name(),
             statement: outcome.statement,
             statistic_name: &outcome.statistic_name,
             effect_name: outcome.effect_name,
             known: outcome.known.as_deref(),
             rounds: outcome.rounds,
-            listing_fails: outcome.listing_fails,
+            listing_fails: listing_fails(outcome),
+            standing: outcome.standing().name(),
         }
     }
 }
@@ -99,7 +102,7 @@ mod tests {
              \"detectable\":0.00016,\"seed\":18446744073709551615,\"finding\":null,\"expected\":\"consistent\",\
              \"statement\":\"Thresholds are uniform for every lerp factor.\",\
              \"statistic_name\":\"chi-square, 63 dof\",\"effect_name\":\"excess chi-square per sample\",\"known\":null,\"rounds\":1,\
-             \"listing_fails\":null}"
+             \"listing_fails\":null,\"standing\":\"as_expected\"}"
         );
     }
 
@@ -110,7 +113,7 @@ mod tests {
         for line in &lines {
             let value: serde_json::Value = serde_json::from_str(line).unwrap();
             assert_eq!(value["schema"], 2);
-            assert_eq!(value.as_object().unwrap().len(), 21);
+            assert_eq!(value.as_object().unwrap().len(), 22);
         }
     }
 }

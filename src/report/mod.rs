@@ -33,21 +33,3 @@ pub mod text;
 
 #[cfg(all(test, feature = "cli"))]
 mod example;
-
-/// What is said of a subject that has no thresholds.
-#[cfg(feature = "cli")]
-const NO_THRESHOLD: &str = "nearly nothing that it answers is a threshold: NaN, or outside of (0, 1]; see `range`, before \
-                            anything else";
-
-/// Returns the answer in words that say whether a negative control did its work.
-#[cfg(feature = "plots")]
-fn answer(outcome: &crate::check::Outcome) -> &'static str {
-    use crate::check::Verdict;
-    match (outcome.expected, outcome.verdict) {
-        (Verdict::Rejected, Verdict::Rejected) => "rejected, as it must be",
-        (Verdict::Rejected, Verdict::Consistent) => "not rejected, though it must be",
-        (_, Verdict::Rejected) if outcome.known.is_some() => "rejected, as known",
-        (_, Verdict::NotApplicable) => "not applicable",
-        (_, verdict) => verdict.name(),
-    }
-}

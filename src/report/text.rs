@@ -1,9 +1,12 @@
 //! The outcomes as a table for a terminal, at most [`COLUMNS`] wide.
 
-use super::{NO_THRESHOLD, answer};
 use crate::check::diagnosis::{Diagnosis, diagnoses};
-use crate::check::{Outcome, Verdict};
+use crate::check::{Outcome, Standing, Verdict};
 use std::fmt::Write as _;
+
+/// What is said of a subject that has no thresholds.
+const NO_THRESHOLD: &str = "nearly nothing that it answers is a threshold: NaN, or outside of (0, 1]; see `range`, before \
+                            anything else";
 
 /// The widest line, in characters.
 pub const COLUMNS: usize = 120;
@@ -20,8 +23,8 @@ const SHORTEST_NAME: usize = 12;
 /// Returns the table, with a line break after every line: headings, one line a claim, below it its finding where it
 /// has one, then what each subject looks like that something speaks against, and [`summary`].
 ///
-/// `colour` puts ANSI colours around verdicts: green where the answer is the expected one, red where it is not,
-/// yellow where there is none. Without it the text is plain. Names that do not fit are cut in the middle.
+/// `colour` puts ANSI colours around verdicts: green where the answer is the expected one, red where it is not and nobody knew,
+/// yellow where it is known or there is none. Without it the text is plain. Names that do not fit are cut in the middle.
 #[must_use]
 pub fn table(outcomes: &[Outcome], colour: bool) -> String {
     let mut rows: Vec<[String; 8]> = outcomes.iter().map(cells).collect();
@@ -44,8 +47,7 @@ pub fn table(outcomes: &[Outcome], colour: bool) -> String {
         let paint = colour.then(|| paint_of(outcome));
         push_row(&mut text, row, &widths, paint);
         // Why a subject could not be run is the same for all its claims.
-        let reason =
-            (outcome.verdict == Verdict::Unavailable).then_some((&outcome.subject, &outcome.finding));
+        let reason = (outcome.verdict == Verdict::Unavailable).then_some((&outcome.subject, &outcome.seen));
         if reason.is_none() || told.replace(reason) != Some(reason) {
             push_finding(&mut text, outcome, paint);
         }
@@ -60,21 +62,21 @@ pub fn table(outcomes: &[Outcome], colour: bool) -> String {
 /// Returns how many outcomes there are of each kind, in one line without a line break.
 #[must_use]
 pub fn summary(outcomes: &[Outcome]) -> String {
-    let count =
-        |wanted: &dyn Fn(&Outcome) -> bool| outcomes.iter().filter(|&outcome| wanted(outcome)).count();
-    let is_control = |o: &Outcome| o.expected == Verdict::Rejected;
+    let count = |wanted: &dyn Fn(&Outcome) -> bool| outcomes.iter().filter(|outcome| wanted(outcome)).count();
+    let of = |standing, is_control| {
+        count(&|outcome| outcome.standing() == standing && outcome.is_control() == is_control)
+    };
+    let without = |verdict| count(&|outcome| outcome.verdict == verdict);
+    let known = of(Standing::Known, false) + of(Standing::Known, true);
     let counts = [
-        (count(&|o| o.verdict == Verdict::Consistent && !is_control(o)), "consistent"),
-        (count(&|o| o.verdict == Verdict::Rejected && !is_control(o) && o.known.is_none()), "rejected"),
-        (
-            count(&|o| o.verdict == Verdict::Rejected && !is_control(o) && o.known.is_some()),
-            "rejected, as known",
-        ),
-        (count(&|o| o.verdict == Verdict::Rejected && is_control(o)), "rejected, as they must be"),
-        (count(&|o| o.verdict == Verdict::Consistent && is_control(o)), "not rejected, though they must be"),
-        (count(&|o| o.verdict == Verdict::Inconclusive), "inconclusive"),
-        (count(&|o| o.verdict == Verdict::Unavailable), "unavailable"),
-        (count(&|o| o.verdict == Verdict::NotApplicable), "not applicable"),
+        (of(Standing::AsExpected, false), "consistent"),
+        (of(Standing::Against, false), "rejected"),
+        (known, "rejected, as known"),
+        (of(Standing::AsExpected, true), "rejected, as they must be"),
+        (of(Standing::Against, true), "not rejected, though they must be"),
+        (without(Verdict::Inconclusive), "inconclusive"),
+        (without(Verdict::Unavailable), "unavailable"),
+        (without(Verdict::NotApplicable), "not applicable"),
     ];
     let parts: Vec<_> =
         counts.into_iter().filter(|(n, _)| *n > 0).map(|(n, name)| format!("{n} {name}")).collect();
@@ -83,14 +85,14 @@ pub fn summary(outcomes: &[Outcome]) -> String {
     format!("{} {claims}: {parts}", outcomes.len())
 }
 
-/// Returns the remark that belongs to an outcome: its finding, and whether a negative control did its work.
+/// Returns the remark that belongs to an outcome: what was seen, and whether a negative control did its work.
 pub(super) fn remark(outcome: &Outcome) -> Option<String> {
-    let finding = outcome.finding.as_deref().filter(|finding| !finding.is_empty());
-    let answered = matches!(outcome.verdict, Verdict::Consistent | Verdict::Rejected);
-    let control = (outcome.expected == Verdict::Rejected && answered).then(|| answer(outcome));
-    let said = match (control, finding) {
-        (Some(control), Some(finding)) => Some(format!("{control}: {finding}")),
-        (control, finding) => control.or(finding).map(str::to_owned),
+    let seen = outcome.seen.as_deref().filter(|seen| !seen.is_empty());
+    let is_answered = matches!(outcome.standing(), Standing::AsExpected | Standing::Against);
+    let control = (is_answered && outcome.is_control()).then(|| outcome.answer());
+    let said = match (control, seen) {
+        (Some(control), Some(seen)) => Some(format!("{control}: {seen}")),
+        (control, seen) => control.or(seen).map(str::to_owned),
     };
     match &outcome.known {
         Some(reason) => Some(format!("{} (known: {reason})", said.unwrap_or_default())),
@@ -122,7 +124,7 @@ fn cells(outcome: &Outcome) -> [String; 8] {
         outcome.verdict.name().replace('_', " "),
         outcome.check.to_owned(),
         outcome.subject.chars().map(|c| if c.is_control() { '?' } else { c }).collect(),
-        outcome.precision.to_owned(),
+        outcome.precision.name().to_owned(),
         outcome.n.to_string(),
         number(outcome.statistic),
         number(outcome.p_holm),
@@ -230,10 +232,10 @@ const YELLOW: &str = "\u{1b}[33m";
 const RESET: &str = "\u{1b}[0m";
 
 fn paint_of(outcome: &Outcome) -> &'static str {
-    match outcome.verdict {
-        _ if outcome.as_expected() => GREEN,
-        Verdict::Consistent | Verdict::Rejected => RED,
-        _ => YELLOW,
+    match outcome.standing() {
+        Standing::AsExpected | Standing::NotApplicable => GREEN,
+        Standing::Against => RED,
+        Standing::Known | Standing::Unanswered => YELLOW,
     }
 }
 
@@ -310,7 +312,7 @@ mod tests {
     fn foreign_names_cannot_steer_the_terminal() {
         let outcome = Outcome {
             subject: "\u{1b}[2Jx".to_owned(),
-            finding: Some("\u{1b}[2J seen".to_owned()),
+            seen: Some("\u{1b}[2J seen".to_owned()),
             ..example::consistent()
         };
         assert!(!table(&[outcome], false).contains('\u{1b}'));

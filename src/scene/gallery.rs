@@ -26,7 +26,23 @@ impl Scene {
     /// Returns every built-in scene, in the order in which they are listed to users.
     #[must_use]
     pub fn all() -> Vec<Self> {
-        vec![wall(), oblique(), fence(), floor(), cards()]
+        vec![Self::wall(), oblique(), fence(), floor(), cards()]
+    }
+
+    /// Returns the wall: a plane of constant z, seen frontally.
+    #[must_use]
+    pub fn wall() -> Self {
+        Self {
+            name: "wall",
+            description: "a wall of constant z, seen frontally",
+            general_position: false,
+            camera: Camera::look_at(dvec3(0.4, 0.3, 8.3), dvec3(0.4, 0.3, 0.0), DVec3::Y, 0.4, RESOLUTION),
+            surfaces: vec![Rectangle {
+                centre: dvec3(0.4, 0.3, 0.3),
+                half_u: DVec3::X * 6.0,
+                half_v: DVec3::Y * 6.0,
+            }],
+        }
     }
 
     /// Returns the footprints of all pixels with analytic derivatives: row by row, and at each pixel surface by
@@ -112,20 +128,6 @@ fn square(centre: DVec3, normal: DVec3, half: f64) -> Rectangle {
     Rectangle { centre, half_u, half_v: normal.cross(half_u).normalize() * half }
 }
 
-fn wall() -> Scene {
-    Scene {
-        name: "wall",
-        description: "a wall of constant z, seen frontally",
-        general_position: false,
-        camera: Camera::look_at(dvec3(0.4, 0.3, 8.3), dvec3(0.4, 0.3, 0.0), DVec3::Y, 0.4, RESOLUTION),
-        surfaces: vec![Rectangle {
-            centre: dvec3(0.4, 0.3, 0.3),
-            half_u: DVec3::X * 6.0,
-            half_v: DVec3::Y * 6.0,
-        }],
-    }
-}
-
 fn oblique() -> Scene {
     let centre = dvec3(0.7, -0.4, 0.9);
     let to_eye = (askew() + dvec3(0.9, -0.3, 0.5)).normalize();
@@ -209,7 +211,7 @@ mod tests {
 
     #[test]
     fn axis_aligned_surfaces_do_not_move_along_their_normal() {
-        for footprint in wall().with_resolution([8, 8]).footprints() {
+        for footprint in Scene::wall().with_resolution([8, 8]).footprints() {
             assert_eq!((footprint.dpdx.z, footprint.dpdy.z), (0.0, 0.0));
         }
         for footprint in floor().with_resolution([8, 8]).footprints() {

@@ -8,7 +8,7 @@ use crate::row::{Measured, Row, judge};
 use core::num::NonZeroU32;
 use glam::DVec3;
 use hashed_alpha::check::Draw;
-use hashed_alpha::check::coordinates::{self, Coordinates, Entry, Stated};
+use hashed_alpha::check::coordinates::{self, Coordinates, Stated, TableCell};
 use hashed_alpha::check::subject::Precision::F32;
 use hashed_alpha::threshold::cdf::CdfForm;
 use hashed_alpha::threshold::hash::sine::hash_3d;
@@ -183,8 +183,8 @@ fn scales() -> Measured {
     judge(12 * 3 * 128 * 128, near, (runs[2] / runs[1] - 3.0).abs() < 0.6, seen)
 }
 
-fn entries() -> &'static [Entry] {
-    static TABLE: OnceLock<Vec<Entry>> = OnceLock::new();
+fn entries() -> &'static [TableCell] {
+    static TABLE: OnceLock<Vec<TableCell>> = OnceLock::new();
     TABLE.get_or_init(|| coordinates::table(&Draw::default()))
 }
 
@@ -200,9 +200,9 @@ fn kept_on_screen(pixels: f64) -> f64 {
 }
 
 fn coordinates_row(kind: Coordinates) -> Measured {
-    let row: Vec<&Entry> = entries().iter().filter(|entry| entry.coordinates == kind).collect();
+    let row: Vec<&TableCell> = entries().iter().filter(|entry| entry.coordinates == kind).collect();
     let kept: Vec<String> = row.iter().map(|entry| percent(entry.kept)).collect();
-    let (generous, plain): (Vec<&Entry>, Vec<&Entry>) =
+    let (generous, plain): (Vec<&TableCell>, Vec<&TableCell>) =
         row.iter().partition(|entry| entry.stated == Stated::Generous);
     // What "somewhat generous" may mean: far surfaces hardly move in the image when the camera moves sideways.
     let far = kept_on_screen(MOTION_PIXELS / FAR);
@@ -230,7 +230,7 @@ fn coordinates_row(kind: Coordinates) -> Measured {
 }
 
 /// Pixels by which a frame of motion moves the middle of the image in the table of coordinates.
-const MOTION_PIXELS: f64 = hashed_alpha::check::tolerance::MOTION_PIXELS;
+const MOTION_PIXELS: f64 = hashed_alpha::check::input::motion::MOTION_PIXELS;
 
 /// How many times as far as in the table a surface is that counts as far.
 const FAR: f64 = 100.0;

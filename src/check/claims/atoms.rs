@@ -1,14 +1,27 @@
 //! Values that come up more often than their share.
 
-use super::cells::at_scale;
-use super::uniform::reject_outsiders;
-use super::{Attempt, Claim, Conclusion, Promise, Trial};
-use crate::check::tolerance::{ATOM_BLOCK, ATOM_THRESHOLD, END, END_LAYERS, POWER, SINGLE_LEVEL, SPREAD};
-use crate::check::{Draw, Evidence, Subject, Verdict};
+use crate::check::input::at_scale;
+use crate::check::judge::detectable_factor;
+use crate::check::tolerance::{POWER, SINGLE_LEVEL, SPREAD};
+use crate::check::trial::reject_outsiders;
+use crate::check::{Attempt, Claim, Conclusion, Draw, Evidence, Promise, Subject, Trial, Verdict};
 use crate::stats::{binomial, power, seed};
 use crate::threshold::footprint::Footprint;
 use glam::{DVec3, dvec3};
 use rand::rngs::Xoshiro256PlusPlus;
+
+/// The threshold up to which values are counted: ten times the clamp of the listings, a hundred steps of the lattice.
+const ATOM_THRESHOLD: f64 = 1.0e-5;
+
+/// Cells of the block in which they are counted: 2^20 in all, ten expected values; sees a rate six times too high, a
+/// seventh of that of the `f32` sine hash.
+const ATOM_BLOCK: [u32; 3] = [64, 128, 128];
+
+/// An end of the range: one step of the coarsest grid of the `f32` sine hash.
+const END: f64 = 1.0 / 1024.0;
+
+/// Layers of the block of cells in which the ends are counted: 256 expected at each end.
+const END_LAYERS: u32 = ATOM_BLOCK[2] / 4;
 
 /// Thresholds next to zero, which keep what is all but transparent.
 pub const ZERO: Claim = Claim {
@@ -107,15 +120,4 @@ fn ends(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
         ),
         evidence: Evidence::None,
     })
-}
-
-/// The smallest excess of a Poisson count of this mean that would be seen, as a factor.
-pub(super) fn detectable_factor(mean: f64) -> f64 {
-    let critical =
-        (0..).find(|&count| binomial::poisson_upper_p(count, mean) < SINGLE_LEVEL).unwrap_or(u64::MAX);
-    let unseen = |factor: f64| binomial::poisson_lower_p(critical - 1, factor * mean);
-    (4..)
-        .map(|quarter| f64::from(quarter) / 4.0)
-        .find(|&factor| unseen(factor) <= 1.0 - POWER)
-        .unwrap_or(f64::INFINITY)
 }

@@ -1,21 +1,31 @@
 //! Cells in odd places: around the origin, far away, and in the mirror.
 
-use super::uniform::reject_outsiders;
-use super::{Attempt, Claim, Conclusion, Promise, Trial};
 use crate::check::evidence::NamedHistogram;
-use crate::check::sample::UsedCells;
-use crate::check::tolerance::{
-    BINS, DRAWS_A_SAMPLE, FAMILY_LEVEL, MIRROR_PAIRS, ORIGIN_OCTAVES, POWER, SINGLE_LEVEL, SPREAD,
-    WINDOW_OFFSETS, WINDOW_SAMPLES, WINDOW_SIZE,
-};
-use crate::check::{Draw, Evidence, Subject, Verdict};
+use crate::check::input::{UsedCells, at_scale, draw_cell};
+use crate::check::judge::{histogram, uncorrelated};
+use crate::check::tolerance::{DRAWS_A_SAMPLE, FAMILY_LEVEL, POWER, SINGLE_LEVEL};
+use crate::check::trial::reject_outsiders;
+use crate::check::{Attempt, Claim, Conclusion, Draw, Evidence, Promise, Subject, Trial, Verdict};
 use crate::stats::chi_square::{self, ChiSquare};
-use crate::stats::histogram::Histogram;
 use crate::stats::{correlation, ecdf, power, seed};
 use crate::threshold::footprint::Footprint;
-use crate::threshold::two_scale::Variant;
 use glam::{DVec3, dvec3};
 use rand::rngs::Xoshiro256PlusPlus;
+
+/// Octaves in which the surroundings of the origin are seen: as many as leave the squares of `f32` derivatives finite.
+const ORIGIN_OCTAVES: core::ops::Range<i32> = -32..32;
+
+/// Cells between the origin and a window: from 2^24 on `f32` has no neighbouring cells.
+const WINDOW_OFFSETS: [f64; 5] = [0.0, 4096.0, 65_536.0, 1_048_576.0, 8_388_608.0];
+
+/// Cells of a window along each axis: flat enough that a bias of single layers of z shows where it grows.
+const WINDOW_SIZE: [f64; 3] = [2048.0, 2048.0, 16.0];
+
+/// Samples in each window: 2048 a layer, which shows when the layers have fewer than 750 different values each.
+const WINDOW_SAMPLES: usize = 1 << 15;
+
+/// Pairs of a cell and its image: sees a correlation of 0.035.
+const MIRROR_PAIRS: usize = 1 << 16;
 
 /// The law around the object's origin, over its distances.
 pub const ORIGIN: Claim = Claim {
@@ -46,34 +56,6 @@ pub const MIRROR: Claim = Claim {
     promise: Some(Promise::Root(0.1)),
     run: mirror,
 };
-
-/// What a scale is divided by: Listing 2 counts the diagonal of a cell.
-pub(super) fn numerator(variant: Variant) -> f64 {
-    if variant == Variant::Anisotropic { 0.707 } else { 1.0 }
-}
-
-/// A footprint with given logarithms to base two of the cells per object unit; the first counts where a variant has
-/// only one scale.
-pub(super) fn at_scale(
-    variant: Variant,
-    hash_scale: f64,
-    position: DVec3,
-    log_scale: [f64; 3],
-) -> Footprint<f64> {
-    let derivative = log_scale.map(|log| numerator(variant) * libm::exp2(-log) / hash_scale);
-    let dpdx = if variant == Variant::Anisotropic {
-        DVec3::from_array(derivative)
-    } else {
-        dvec3(derivative[0], 0.0, 0.0)
-    };
-    Footprint { position, dpdx, dpdy: dpdx * 0.5 }
-}
-
-/// Draws a cell within [`SPREAD`] of the origin along every axis.
-pub(super) fn draw_cell(rng: &mut Xoshiro256PlusPlus) -> DVec3 {
-    let mut index = || ((2.0 * seed::uniform01(rng) - 1.0) * SPREAD).floor();
-    dvec3(index(), index(), index())
-}
 
 /// Draws a place within an octave along each axis.
 fn fractions(rng: &mut Xoshiro256PlusPlus) -> [f64; 3] {
@@ -138,12 +120,11 @@ fn window(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
             let samples = window_samples(subject, direction * offset, draw.samples(WINDOW_SAMPLES), &mut rng);
             let values = subject.thresholds(&samples);
             reject_outsiders(&samples, &values)?;
-            let mut counts = Histogram::new(BINS);
-            counts.extend(values);
+            let counts = histogram(values);
             let name = format!("{offset} cells along {along}");
             let Ok(test) = chi_square::uniform(counts.counts()) else { continue };
             tests.push(test);
-            evidence.push(NamedHistogram { name, counts: counts.counts().to_vec() });
+            evidence.push(NamedHistogram::new(name, &counts));
         }
     }
     let failed = tests.iter().position(|test| test.p * (tests.len() as f64) < FAMILY_LEVEL);
@@ -223,17 +204,6 @@ fn mirror(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     let Some((found, name)) = worst else {
         return Ok(Trial::without(Conclusion::Exact { holds: false }, "the threshold is a constant"));
     };
-    let tests = SYMMETRIES.len() as f64;
-    let sigma = 1.0 / (found.n as f64 - 1.0).sqrt();
-    Ok(Trial {
-        conclusion: Conclusion::Probability((tests * found.p).min(1.0)),
-        statistic: Some(found.z),
-        statistic_name: "z of the correlation, worst of 3".into(),
-        n: found.n,
-        effect: Some(found.r.abs()),
-        effect_name: "correlation",
-        detectable: Some(power::detectable_shift_z(sigma, SINGLE_LEVEL / tests, POWER)),
-        seen: format!("thresholds of {name} have a correlation of {:+.4}", found.r),
-        evidence: Evidence::None,
-    })
+    let seen = format!("thresholds of {name} have a correlation of {:+.4}", found.r);
+    Ok(uncorrelated(&found, SYMMETRIES.len(), seen))
 }

@@ -4,25 +4,46 @@
 //! more than the join allows for the change of the scales; whatever goes beyond is a *pop*. The dithered join is
 //! continuous in law only: it may switch once an octave and axis, at a place of its own in every cell.
 
-use super::cells::{at_scale, draw_cell, numerator};
-use super::range::describe;
-use super::uniform::reject_outsiders;
-use super::{Attempt, Claim, Conclusion, Promise, Trial, detectable_share};
-use crate::check::sample::{UsedCells, placement};
-use crate::check::subject::{Nominal, Precision};
-use crate::check::tolerance::{
-    BOUNDARY_OCTAVES, BOUNDARY_POINTS, BOUNDARY_ULPS, COPULA_SLOPE, COPULA_SLOPE_OF_AN_AXIS, FINEST_VIEW,
-    INTERPOLATION_SLOPE, LOG_SCALE_STEP, OTHER_AXES, POP_ROUNDING, SWEEP_POINTS, TILT_OCTAVES, TURN_STEP,
-    ZOOM_OCTAVES,
+use crate::check::input::{
+    UsedCells, at_scale, draw_cell, numerator, placement, tangents, tilted, turned, zoomed,
 };
-use crate::check::{Draw, Evidence, Subject, Verdict};
+use crate::check::predict::{largest_change, log_scale, octaves_between};
+use crate::check::subject::Nominal;
+use crate::check::tolerance::TILT_OCTAVES;
+use crate::check::trial::{describe, detectable_share, reject_outsiders};
+use crate::check::{Attempt, Claim, Conclusion, Draw, Evidence, Precision, Promise, Subject, Trial, Verdict};
 use crate::stats::{binomial, seed};
 use crate::threshold::footprint::Footprint;
 use crate::threshold::robust::Join;
 use crate::threshold::two_scale::Variant;
 use core::f64::consts::FRAC_PI_2;
-use glam::{DVec2, DVec3, dvec3};
+use glam::{DVec3, dvec3};
 use rand::rngs::Xoshiro256PlusPlus;
+
+/// Points whose thresholds are followed under zoom, rotation and tilt: a pop in one of 200 points and octaves shows.
+const SWEEP_POINTS: usize = 64;
+
+/// Octaves that the scale goes through under zoom: three powers of two along each axis.
+const ZOOM_OCTAVES: f64 = 3.0;
+
+/// Octaves between two views: the steepest join then moves by less than 0.02 a step, where a pop has a mean of 1/3.
+const LOG_SCALE_STEP: f64 = 1.0 / 2048.0;
+
+/// Radians between two views of a turn; no scale moves by more than log2(e) octaves a radian.
+const TURN_STEP: f64 = 1.0 / 3072.0;
+
+/// Octaves at whose beginning the threshold is followed: indices in them have one to three digits.
+const BOUNDARY_OCTAVES: core::ops::RangeInclusive<i32> = -2..=6;
+
+/// Points at each power of two: log2 and its floor disagree within few roundings, and at every point if at any.
+const BOUNDARY_POINTS: usize = 1 << 11;
+
+/// Roundings on each side of a power of two: log2 in `f32` rounds up to two of them to the power up to 2^8.
+const BOUNDARY_ULPS: i32 = 8;
+
+/// Octaves by which the other axes are finer there: both derivatives together stay shorter than the first, and no
+/// shorter than the 2^-5 at which a floor would tie them to it.
+const OTHER_AXES: [f64; 2] = [0.6, 3.0];
 
 /// No pops while the camera comes closer.
 pub const ZOOM: Claim = Claim {
@@ -32,7 +53,7 @@ pub const ZOOM: Claim = Claim {
     expected: Verdict::Consistent,
     promise: Some(Promise::Linear(0.2)),
     run: |subject, draw| {
-        let zoom = Motion {
+        let zoom = Sweep {
             steps: (ZOOM_OCTAVES / LOG_SCALE_STEP) as usize,
             length: ZOOM_OCTAVES,
             monotone: true,
@@ -51,7 +72,7 @@ pub const ROTATION: Claim = Claim {
     expected: Verdict::Consistent,
     promise: Some(Promise::Linear(0.5)),
     run: |subject, draw| {
-        let quarter_turn = Motion {
+        let quarter_turn = Sweep {
             steps: (FRAC_PI_2 / TURN_STEP) as usize,
             length: 1.0,
             monotone: false,
@@ -70,7 +91,7 @@ pub const TILT: Claim = Claim {
     expected: Verdict::Consistent,
     promise: Some(Promise::Linear(0.5)),
     run: |subject, draw| {
-        let tilt = Motion {
+        let tilt = Sweep {
             steps: (TILT_OCTAVES / LOG_SCALE_STEP) as usize,
             length: 1.0,
             monotone: true,
@@ -91,27 +112,8 @@ pub const OCTAVE_BOUNDARY: Claim = Claim {
     run: octave_boundary,
 };
 
-/// The derivatives after the camera has come closer by so many octaves, from two tangents of equal length at right
-/// angles.
-pub(super) fn zoomed([u, v]: [DVec3; 2], octaves: f64) -> [DVec3; 2] {
-    let scale = libm::exp2(-octaves);
-    [u * scale, v * scale]
-}
-
-/// The derivatives after a turn about the line of sight, by an angle in radians, of a surface at 60 degrees to the
-/// screen, so that turning it changes the longer of the derivatives.
-pub(super) fn turned([u, v]: [DVec3; 2], angle: f64) -> [DVec3; 2] {
-    let turn = DVec2::new(libm::cos(angle), libm::sin(angle));
-    [u * turn.x + 2.0 * v * turn.y, 2.0 * v * turn.x - u * turn.y]
-}
-
-/// The derivatives after a tilt that stretches the second by so many octaves.
-pub(super) fn tilted([u, v]: [DVec3; 2], octaves: f64) -> [DVec3; 2] {
-    [u, v * libm::exp2(octaves)]
-}
-
 /// A change of the view of a point.
-struct Motion {
+struct Sweep {
     /// Number of steps.
     steps: usize,
     /// How often the unit of the effect fits into the whole motion.
@@ -123,7 +125,7 @@ struct Motion {
     derivatives: fn([DVec3; 2], f64) -> [DVec3; 2],
 }
 
-fn sweep(subject: &Subject<'_>, draw: &Draw, claim: &str, motion: &Motion) -> Attempt<Trial> {
+fn sweep(subject: &Subject<'_>, draw: &Draw, claim: &str, motion: &Sweep) -> Attempt<Trial> {
     let dithered = subject.join == Join::Dithered;
     if dithered && !motion.monotone {
         let reason = "the dithered join switches as often as a scale passes the place of its cell; \
@@ -154,23 +156,6 @@ fn sweep(subject: &Subject<'_>, draw: &Draw, claim: &str, motion: &Motion) -> At
     Ok(pops.into_trial(motions, motion.effect_name))
 }
 
-/// Draws two tangents of one length, at right angles, in any direction.
-pub(super) fn tangents(rng: &mut Xoshiro256PlusPlus) -> [DVec3; 2] {
-    let length = libm::exp2(-FINEST_VIEW - seed::uniform01(rng));
-    let mut direction = || loop {
-        let v = dvec3(seed::uniform01(rng), seed::uniform01(rng), seed::uniform01(rng)) * 2.0 - 1.0;
-        if (0.01..1.0).contains(&v.length_squared()) {
-            return v.normalize();
-        }
-    };
-    let u = direction();
-    loop {
-        if let Some(v) = u.cross(direction()).try_normalize() {
-            return [u * length, v * length];
-        }
-    }
-}
-
 /// Changes that are too large, or too many.
 #[derive(Default)]
 struct Pops {
@@ -189,7 +174,7 @@ impl Pops {
         for step in 1..views.len() {
             let after = subject.nominal(&views[step]);
             let jump = (thresholds[step] - thresholds[step - 1]).abs();
-            if jump > allowed(subject, &before, &after) {
+            if jump > largest_change(subject, &before, &after) {
                 self.add(jump, || describe(&views[step], thresholds[step]));
             }
             before = after;
@@ -245,32 +230,6 @@ impl Pops {
     }
 }
 
-/// The logarithm to base two of the cells per object unit along each axis.
-fn log_scale(nominal: &Nominal) -> [f64; 3] {
-    [0, 1, 2].map(|axis| libm::log2(nominal.coarse_scale[axis]) + nominal.fraction[axis])
-}
-
-/// How far two scales are apart along each axis, in octaves.
-fn distance(before: &Nominal, after: &Nominal) -> [f64; 3] {
-    let (before, after) = (log_scale(before), log_scale(after));
-    [0, 1, 2].map(|axis| (after[axis] - before[axis]).abs())
-}
-
-/// The most by which a continuous join changes between two scales.
-pub(in crate::check) fn allowed(subject: &Subject<'_>, before: &Nominal, after: &Nominal) -> f64 {
-    let distance = distance(before, after);
-    let slope = match (subject.join, subject.variant) {
-        (Join::Copula, Variant::Anisotropic) => COPULA_SLOPE_OF_AN_AXIS * distance.iter().sum::<f64>(),
-        (Join::Copula, _) => COPULA_SLOPE * distance[0],
-        _ => INTERPOLATION_SLOPE * distance.into_iter().fold(0.0, f64::max),
-    };
-    slope + rounding(subject.precision)
-}
-
-fn rounding(precision: Precision) -> f64 {
-    POP_ROUNDING[usize::from(precision == Precision::F64)]
-}
-
 fn octave_boundary(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     let mut rng = draw.rng(OCTAVE_BOUNDARY.id);
     let mut pops = Pops::default();
@@ -287,7 +246,7 @@ fn octave_boundary(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
             pops.add_jumps(subject, &views, &thresholds);
             changes += thresholds.windows(2).filter(|pair| pair[0] != pair[1]).count() as u64;
             let nominal: Vec<Nominal> = views.iter().map(|view| subject.nominal(view)).collect();
-            expected += nominal.windows(2).flat_map(|pair| distance(&pair[0], &pair[1])).sum::<f64>();
+            expected += nominal.windows(2).flat_map(|pair| octaves_between(&pair[0], &pair[1])).sum::<f64>();
         }
     }
     let crossings = pops.steps as f64 / f64::from(2 * BOUNDARY_ULPS);
@@ -326,36 +285,5 @@ fn ulps_away(precision: Precision, x: f64, ulps: i32) -> f64 {
     match precision {
         Precision::F32 => f64::from(f32::from_bits((x as f32).to_bits().wrapping_add_signed(ulps))),
         Precision::F64 => f64::from_bits(x.to_bits().wrapping_add_signed(i64::from(ulps))),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::check::specimen::ideal;
-
-    /// The axes of the copula add up, those of an interpolation do not, and one scale has one distance.
-    #[test]
-    fn each_join_may_move_as_far_as_its_slope_allows() {
-        let moved = |join, variant| {
-            let subject = ideal(0, variant, Precision::F64, join);
-            let view = |fraction| Nominal {
-                coarse_scale: [4.0; 3],
-                fine_scale: [8.0; 3],
-                coarse_cell: DVec3::ZERO,
-                fine_cell: DVec3::ZERO,
-                fraction,
-                lerp_factor: 0.0,
-            };
-            allowed(&subject, &view([0.25, 0.5, 0.5]), &view([0.5, 0.5, 0.375])) - rounding(subject.precision)
-        };
-        for (join, variant, slope) in [
-            (Join::Copula, Variant::Isotropic, 0.25 * COPULA_SLOPE),
-            (Join::Copula, Variant::Anisotropic, 0.375 * COPULA_SLOPE_OF_AN_AXIS),
-            (Join::Interpolate, Variant::Isotropic, 0.25 * INTERPOLATION_SLOPE),
-            (Join::Interpolate, Variant::Anisotropic, 0.25 * INTERPOLATION_SLOPE),
-        ] {
-            assert!((moved(join, variant) - slope).abs() < 1.0e-12, "{join} {variant}");
-        }
     }
 }

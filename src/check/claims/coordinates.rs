@@ -1,11 +1,9 @@
 //! The threshold belongs to a point of the object, wherever that point is and whoever looks.
 
-use super::determinism::{differing, trial};
-use super::{Attempt, Claim, Promise, Trial};
-use crate::check::coordinates::Motion;
-use crate::check::sample::{general_scenes, placed, placement, sighting};
+use crate::check::input::{Motion, general_scenes, placed, placement, sighting};
+use crate::check::judge::{differing, equality};
 use crate::check::tolerance::EXACT_POINTS;
-use crate::check::{Draw, Subject, Verdict};
+use crate::check::{Attempt, Claim, Draw, Promise, Subject, Trial, Verdict};
 use crate::scene::Fragment;
 
 /// Camera and object move; the point of the object does not.
@@ -37,5 +35,5 @@ fn object(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     }
     let (first, second) = (subject.thresholds(&before), subject.thresholds(&after));
     let (different, told) = differing(&before, &first, &[second]);
-    Ok(trial(before.len(), different, told, "after camera and object have moved"))
+    Ok(equality(before.len(), different, told, "after camera and object have moved"))
 }

@@ -3,22 +3,37 @@
 //! A pooled test lets the errors of two surfaces cancel, and a mean says nothing of clumps: neighbouring pixels share
 //! cells, so the coverage of a block of pixels varies more than that of as many coins, by the design effect.
 
-use super::uniform::reject_outsiders;
-use super::{Attempt, Claim, Conclusion, Promise, Trial, stability};
 use crate::check::evidence::ComparedShare;
-use crate::check::kinship::Kinship;
-use crate::check::sample::{general_scenes, independent};
-use crate::check::sheet::Sheet;
+use crate::check::input::{Patch, general_scenes, independent};
+use crate::check::judge::detectable_error;
+use crate::check::predict::PairLaw;
 use crate::check::subject::Nominal;
-use crate::check::tolerance::{
-    BLOCK_SIDE, BLOCKS_A_SHEET, COVERAGE_ALPHAS, COVERAGE_BLOCKS, COVERAGE_SAMPLES, POWER, SINGLE_LEVEL,
-    TILT_STRETCH, VARIANCE_ALPHAS,
-};
-use crate::check::{Draw, Evidence, Subject, Verdict};
+use crate::check::tolerance::TILT_STRETCH;
+use crate::check::trial::reject_outsiders;
+use crate::check::{Attempt, Claim, Conclusion, Draw, Evidence, Promise, Subject, Trial, Verdict};
 use crate::scene::{Fragment, Scene};
+use crate::stats::binomial;
 use crate::stats::variance::Variance;
-use crate::stats::{binomial, power};
 use glam::DVec2;
+
+/// Samples of each surface on which coverage is measured: every share is known to 0.3 %.
+const COVERAGE_SAMPLES: usize = 1 << 15;
+
+/// Alphas at which coverage is measured on each surface, among them those of a thin and of a dense texture.
+const COVERAGE_ALPHAS: [f64; 4] = [0.1, 0.3, 0.5, 0.9];
+
+/// Blocks whose coverage is compared with each other: a variance is known to 3 % on either side of lerp factor 1/2.
+const COVERAGE_BLOCKS: usize = 1 << 12;
+
+/// Blocks that share a patch, each at a place of its own.
+const BLOCKS_A_PATCH: usize = 16;
+
+/// Places along a side of a block, half the claimed size of the noise apart: a block holds some thirty cells, so that its
+/// mean is near normal.
+const BLOCK_SIDE: usize = 12;
+
+/// Alphas at which the variance is measured: the kurtosis of a kept cell is then negative, which errs on the safe side.
+const VARIANCE_ALPHAS: [f64; 3] = [0.3, 0.5, 0.7];
 
 /// Share kept on each surface in general position.
 pub const MEAN: Claim = Claim {
@@ -94,7 +109,7 @@ fn mean(claim: &Claim, scenes: Vec<Scene>, subject: &Subject<'_>, draw: &Draw) -
         n,
         effect: points.iter().map(|point| (point.measured - point.predicted).abs()).reduce(f64::max),
         effect_name: "error in coverage",
-        detectable: stability::detectable(&points),
+        detectable: detectable_error(&points),
         seen: format!("{}: {:.2} % are kept at alpha {}", worst.series, 100.0 * worst.measured, worst.x),
         evidence: Evidence::Quantity { abscissa: "alpha", ordinate: "share kept", points },
     })
@@ -111,19 +126,19 @@ fn variance(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     // What is wrong with the weights of two octaves has another sign on the other side of 1/2.
     let mut groups = ["lerp factor below 1/2", "lerp factor above 1/2"]
         .map(|name| Blocks { name, scores: Default::default() });
-    let sheets = draw.samples(COVERAGE_BLOCKS).div_ceil(BLOCKS_A_SHEET);
-    for index in 0..sheets {
+    let patches = draw.samples(COVERAGE_BLOCKS).div_ceil(BLOCKS_A_PATCH);
+    for index in 0..patches {
         let stretch = [1.0, TILT_STRETCH, 1.0 / TILT_STRETCH][index % 3];
-        let sheet = Sheet::draw(subject, stretch, &mut rng);
+        let patch = Patch::draw(subject, stretch, &mut rng);
         let spacing = 0.5 * subject.hash_scale;
-        let blocks: Vec<Fragment> = (0..BLOCKS_A_SHEET)
-            .flat_map(|_| sheet.image(subject, [BLOCK_SIDE; 2], spacing, &mut rng))
+        let blocks: Vec<Fragment> = (0..BLOCKS_A_PATCH)
+            .flat_map(|_| patch.image(subject, [BLOCK_SIDE; 2], spacing, &mut rng))
             .collect();
         let values = subject.thresholds(&blocks);
         reject_outsiders(&blocks, &values)?;
         let nominal = subject.nominal(&blocks[0].footprint);
         let above = nominal.lerp_factor >= 0.5;
-        let predicted = predicted_variances(subject, &sheet, &nominal, spacing);
+        let predicted = predicted_variances(subject, &patch, &nominal, spacing);
         for ((alpha, predicted), scores) in
             VARIANCE_ALPHAS.into_iter().zip(predicted).zip(&mut groups[usize::from(above)].scores)
         {
@@ -139,7 +154,7 @@ fn variance(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
 /// The variance of the coverage of a block at each alpha: that of independent fragments, times the design effect.
 fn predicted_variances(
     subject: &Subject<'_>,
-    sheet: &Sheet,
+    patch: &Patch,
     nominal: &Nominal,
     spacing: f64,
 ) -> [f64; VARIANCE_ALPHAS.len()] {
@@ -147,11 +162,11 @@ fn predicted_variances(
     let mut sums = [0.0; VARIANCE_ALPHAS.len()];
     for y in 1 - side..side {
         for x in 1 - side..side {
-            let lag = sheet.lag(DVec2::new(f64::from(x), f64::from(y)) * spacing);
-            let kinship = Kinship::new(subject, nominal, lag);
+            let lag = patch.lag(DVec2::new(f64::from(x), f64::from(y)) * spacing);
+            let pair = PairLaw::new(subject, nominal, lag);
             let pairs = f64::from((side - x.abs()) * (side - y.abs()));
             for (sum, alpha) in sums.iter_mut().zip(VARIANCE_ALPHAS) {
-                *sum += pairs * kinship.visibility_correlation(alpha);
+                *sum += pairs * pair.visibility_correlation(alpha);
             }
         }
     }
@@ -186,11 +201,7 @@ fn judged(groups: &[Blocks]) -> Trial {
         n,
         effect: Some(error(worst)),
         effect_name: "relative error in the variance of coverage",
-        detectable: points
-            .iter()
-            .map(|point| point.sigma)
-            .reduce(f64::max)
-            .map(|sigma| power::detectable_shift_z(sigma, SINGLE_LEVEL / points.len() as f64, POWER)),
+        detectable: detectable_error(&points),
         seen: format!(
             "{}, alpha {}: the coverage of blocks varies {:.2} times as much as predicted",
             worst.series, worst.x, worst.measured

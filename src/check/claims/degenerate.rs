@@ -1,14 +1,22 @@
 //! Inputs at the edge of the number format: derivatives and positions that are zero, tiny, huge, infinite or NaN, and
 //! surfaces so far from the origin that neighbouring pixels have the same position.
 
-use super::range::describe;
-use super::{Attempt, Claim, Conclusion, Promise, Trial, detectable_share};
-use crate::check::tolerance::{FAR_COORDINATES, FAR_FOOTPRINTS, FAR_QUADS};
-use crate::check::{Draw, Evidence, Subject, Verdict};
+use crate::check::trial::describe;
+use crate::check::{Attempt, Claim, Draw, Promise, Subject, Trial, Verdict};
 use crate::stats::seed::uniform01;
 use crate::threshold::footprint::Footprint;
 use glam::{DVec3, Vec3, vec3};
 use rand::rngs::Xoshiro256PlusPlus;
+
+/// Distances from the origin at which `f32` positions are tried, in object units: a large level, a city, a country.
+const FAR_COORDINATES: [f32; 3] = [1.0e4, 1.0e5, 1.0e6];
+
+/// Sizes of a pixel there, in units in the last place of the coordinate: from quads with one position to quads with a
+/// derivative of one or two units.
+const FAR_FOOTPRINTS: [f64; 4] = [0.05, 0.2, 0.5, 1.5];
+
+/// Quads of each size at each distance: a share is known to a hundredth.
+const FAR_QUADS: usize = 1 << 13;
 
 /// A table of degenerate footprints; no chance in it.
 pub const DEGENERATE: Claim = Claim {
@@ -108,28 +116,14 @@ fn degenerate(subject: &Subject<'_>, _: &Draw) -> Attempt<Trial> {
         }
     }
     let first = first.map_or(String::new(), |first| format!("; first {first}"));
-    Ok(outsiders(
-        outside,
-        n,
-        // A fixed table: what is not on it is not seen.
-        None,
-        format!("{outside} of {n} answers are no number in (0, 1], {refused} are refusals{first}"),
-    ))
+    let seen = format!("{outside} of {n} answers are no number in (0, 1], {refused} are refusals{first}");
+    // A fixed table: what is not on it is not seen.
+    Ok(Trial { detectable: None, ..outsiders(outside, n, seen) })
 }
 
 /// The trial of a claim that every threshold is in (0, 1].
-fn outsiders(outside: u64, n: u64, detectable: Option<f64>, seen: String) -> Trial {
-    Trial {
-        conclusion: Conclusion::Exact { holds: outside == 0 },
-        statistic: Some(outside as f64),
-        statistic_name: "thresholds outside (0, 1]".into(),
-        n,
-        effect: Some(outside as f64 / n as f64),
-        effect_name: "share of footprints",
-        detectable,
-        seen,
-        evidence: Evidence::None,
-    }
+fn outsiders(outside: u64, n: u64, seen: String) -> Trial {
+    Trial::counted(outside, n, "thresholds outside (0, 1]", "share of footprints", seen)
 }
 
 fn far_from_origin(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
@@ -158,7 +152,7 @@ fn far_from_origin(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
         "no number in (0, 1], by the size of a pixel in units in the last place: {}{first}",
         seen.join(", ")
     );
-    Ok(outsiders(outside, n, Some(detectable_share(n as f64)), seen))
+    Ok(outsiders(outside, n, seen))
 }
 
 /// A pixel of a frontal wall of constant z whose pixels are `ratio` units in the last place of `f32` wide: positions

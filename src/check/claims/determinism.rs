@@ -1,12 +1,16 @@
 //! The threshold is a function: of the fragment alone, and of its derivatives without order or sign.
 
-use super::range::describe;
-use super::{Attempt, Claim, Conclusion, Promise, Trial, detectable_share};
-use crate::check::sample::{placement, sighting};
-use crate::check::tolerance::{ALONE, EXACT_POINTS, PIECE};
-use crate::check::{Draw, Evidence, Subject, Verdict};
-use crate::scene::{Fragment, Scene};
+use crate::check::input::fragments_everywhere;
+use crate::check::judge::{differing, equality};
+use crate::check::{Attempt, Claim, Draw, Promise, Subject, Trial, Verdict};
+use crate::scene::Fragment;
 use crate::threshold::footprint::Footprint;
+
+/// Points that are evaluated one by one.
+const ALONE: usize = 64;
+
+/// Fragments of a second pass that are evaluated together: neither a power of two nor a row of the first.
+const PIECE: usize = 37;
 
 /// A depth pass and the colour pass after it decide alike.
 pub const TWO_PASSES: Claim = Claim {
@@ -29,57 +33,8 @@ pub const DERIVATIVES: Claim = Claim {
     run: derivatives,
 };
 
-/// Fragments of all scenes, in no order.
-pub(super) fn fragments(subject: &Subject<'_>, draw: &Draw, claim: &str) -> Vec<Fragment> {
-    let mut rng = draw.rng(claim);
-    let scenes = Scene::all();
-    let count = draw.samples(EXACT_POINTS);
-    (0..count)
-        .map(|index| {
-            let place = placement(&mut rng);
-            sighting(&scenes[index % scenes.len()], &mut rng).placed(place, subject.precision).fragment
-        })
-        .collect()
-}
-
-/// Whether two answers are one: the same bits, or refused twice.
-fn same(a: f64, b: f64) -> bool {
-    a.to_bits() == b.to_bits() || a.is_nan() && b.is_nan()
-}
-
-/// What is told of thresholds that should be equal: how many of `n` points have one that is not, and the first of them.
-pub(super) fn trial(n: usize, different: usize, first: Option<String>, when: &str) -> Trial {
-    let share = different as f64 / n as f64;
-    Trial {
-        conclusion: Conclusion::Exact { holds: different == 0 },
-        statistic: Some(different as f64),
-        statistic_name: "points with two thresholds".into(),
-        n: n as u64,
-        effect: Some(share),
-        effect_name: "share of points",
-        detectable: Some(detectable_share(n as f64)),
-        seen: format!(
-            "{:.2} % of points have another threshold {when}; first {}",
-            100.0 * share,
-            first.unwrap_or_default()
-        ),
-        evidence: Evidence::None,
-    }
-}
-
-/// Counts the points whose thresholds are not equal to the first, and describes the first of them.
-pub(super) fn differing(points: &[Fragment], first: &[f64], others: &[Vec<f64>]) -> (usize, Option<String>) {
-    let found: Vec<(usize, f64)> = (0..points.len())
-        .filter_map(|at| Some((at, others.iter().map(|values| values[at]).find(|&v| !same(first[at], v))?)))
-        .collect();
-    let told = found
-        .first()
-        .map(|&(at, value)| format!("{value:?}, at first {}", describe(&points[at].footprint, first[at])));
-    (found.len(), told)
-}
-
 fn two_passes(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
-    let points = fragments(subject, draw, TWO_PASSES.id);
+    let points = fragments_everywhere(subject, draw, TWO_PASSES.id);
     let once = subject.thresholds(&points);
     let backwards: Vec<Fragment> = points.iter().rev().copied().collect();
     let mut reversed = subject.thresholds(&backwards);
@@ -100,11 +55,11 @@ fn two_passes(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
         *value = subject.threshold(*point).unwrap_or(f64::NAN);
     }
     let (different, first) = differing(&points, &once, &[reversed, in_pieces, alone]);
-    Ok(trial(points.len(), different, first, "in a second pass"))
+    Ok(equality(points.len(), different, first, "in a second pass"))
 }
 
 fn derivatives(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
-    let points = fragments(subject, draw, DERIVATIVES.id);
+    let points = fragments_everywhere(subject, draw, DERIVATIVES.id);
     let with = |change: fn(Footprint<f64>) -> Footprint<f64>| {
         let changed = |point: &Fragment| Fragment { footprint: change(point.footprint), ..*point };
         subject.thresholds(&points.iter().map(changed).collect::<Vec<_>>())
@@ -115,5 +70,5 @@ fn derivatives(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
         with(|f| Footprint { dpdy: -f.dpdy, ..f }),
     ];
     let (different, first) = differing(&points, &subject.thresholds(&points), &others);
-    Ok(trial(points.len(), different, first, "with its derivatives exchanged or turned around"))
+    Ok(equality(points.len(), different, first, "with its derivatives exchanged or turned around"))
 }

@@ -1,11 +1,9 @@
 //! What follows from the listings without any chance: where the threshold changes, and by which formula.
 
-use super::{Attempt, Claim, Conclusion, Promise, Trial, detectable_share};
-use crate::check::sample::{Sighting, general_scenes, independent, placement, sighting};
-use crate::check::tolerance::{
-    CDF_ROUNDING, CELL_MOTION, CELL_PAIRS, CELL_WEIGHTS, DRAWS_A_PLACE, FORMULA_SAMPLES, MEETING,
-};
-use crate::check::{Draw, Evidence, Subject, Verdict, subject::Precision};
+use crate::check::input::{Sighting, general_scenes, independent, placement, sighting};
+use crate::check::tolerance::{DRAWS_A_PLACE, MEETING};
+use crate::check::trial::detectable_share;
+use crate::check::{Attempt, Claim, Conclusion, Draw, Evidence, Precision, Promise, Subject, Trial, Verdict};
 use crate::scene::Fragment;
 use crate::stats::binomial;
 use crate::stats::seed::uniform01;
@@ -13,6 +11,22 @@ use crate::threshold::cdf::cdf;
 use crate::threshold::robust::Join;
 use glam::{DVec3, dvec3};
 use rand::rngs::Xoshiro256PlusPlus;
+
+/// Pairs of a point before and after a motion: about half stay in their cells.
+const CELL_PAIRS: usize = 1 << 16;
+
+/// The largest motion along an axis, in sides of the fine cell: three in five points stay in a cell of three axes.
+const CELL_MOTION: f64 = 0.3;
+
+/// Weights at which the change of either cell shows in the last bits of an `f32`.
+const CELL_WEIGHTS: core::ops::RangeInclusive<f64> = 0.01..=0.99;
+
+/// Samples of which Eq. 2 is computed again.
+const FORMULA_SAMPLES: usize = 1 << 16;
+
+/// How far a threshold may be from Eq. 2, in `f32` and `f64`: the clamp at 1e-6, and a dozen roundings of a number below
+/// 1 for the logarithm, the weight and the formula.
+const CDF_ROUNDING: [f64; 2] = [1.0 / 524_288.0, 1.0e-6];
 
 /// The threshold changes exactly where the position enters another cell.
 pub const CELLS: Claim = Claim {
@@ -131,18 +145,14 @@ fn formula(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
         largest = largest.max(error);
     }
     let n = samples.len() as u64;
-    Ok(Trial {
-        conclusion: Conclusion::Exact { holds: outside == 0 },
-        statistic: Some(largest),
-        statistic_name: "largest distance from Eq. 2".into(),
+    let first = first.unwrap_or_default();
+    let seen = format!("{outside} of {n} thresholds are not Eq. 2, by up to {largest:.4}{first}");
+    let counted = Trial::counted(
+        outside,
         n,
-        effect: Some(outside as f64 / n as f64),
-        effect_name: "share of thresholds that are not Eq. 2",
-        detectable: Some(detectable_share(n as f64)),
-        seen: format!(
-            "{outside} of {n} thresholds are not Eq. 2, by up to {largest:.4}{}",
-            first.unwrap_or_default()
-        ),
-        evidence: Evidence::None,
-    })
+        "largest distance from Eq. 2",
+        "share of thresholds that are not Eq. 2",
+        seen,
+    );
+    Ok(Trial { statistic: Some(largest), ..counted })
 }

@@ -4,26 +4,42 @@
 //! fewer than by a hard one, by a continuous change as many as the join has to have. E |d tau| is the integral of the
 //! flips over alpha, and so is no claim of its own.
 
-use super::continuity::{tangents, tilted, turned, zoomed};
-use super::stability::detectable;
-use super::uniform::reject_outsiders;
-use super::{Attempt, Claim, Conclusion, Promise, Trial};
-use crate::check::coordinates::Motion;
 use crate::check::evidence::ComparedShare;
-use crate::check::kinship::Kinship;
-use crate::check::rescaled::flip_between;
-use crate::check::sample::{general_scenes, placed, placement, sighting};
-use crate::check::tolerance::{
-    ALPHAS, FINE_VIEWS, FLIP_POINTS, FLIP_SAMPLES, FLIP_SHIFTS, FLIP_STEPS, POWER, SINGLE_LEVEL,
-    SKINNED_FRAMES, TILT_OCTAVES, WIDE,
+use crate::check::input::{
+    Motion, general_scenes, placed, placement, sighting, tangents, tilted, turned, zoomed,
 };
-use crate::check::{Draw, Evidence, Subject, Verdict};
+use crate::check::judge::detectable_error;
+use crate::check::predict::{PairLaw, flip_between};
+use crate::check::tolerance::{ALPHAS, POWER, SINGLE_LEVEL, TILT_OCTAVES, WIDE};
+use crate::check::trial::reject_outsiders;
+use crate::check::{Attempt, Claim, Conclusion, Draw, Evidence, Promise, Subject, Trial, Verdict};
 use crate::scene::Fragment;
 use crate::stats::{normal, poisson_binomial, power};
 use crate::threshold::footprint::Footprint;
 use core::f64::consts::FRAC_PI_2;
 use glam::DVec3;
 use rand::rngs::Xoshiro256PlusPlus;
+
+/// Shifts in pixels after which flips are counted: one at which half of the changes are soft, one beyond the fine cell.
+const FLIP_SHIFTS: [f64; 2] = [0.125, 0.6];
+
+/// Samples at each shift, screen axis and scene: a soft change that is counted as a hard one doubles a share of 0.1.
+const FLIP_SAMPLES: usize = 1 << 15;
+
+/// How much smaller the cells are than those of [`FINEST_VIEW`] where only the view of a point changes: again 10^5
+/// intervals. Much smaller ones would be so for the coordinates that the robust threshold raises them.
+const FINE_VIEWS: f64 = 256.0;
+
+/// Points whose flips are counted over a whole motion: a flip more in 25 points and octaves shows; leaving out Eq. 2
+/// takes away one in 12 at an alpha of 0.1.
+const FLIP_POINTS: usize = 1 << 14;
+
+/// Views of a point less one: few passages of alpha fall between two of them in twos. The prediction is about the views
+/// themselves and does not count those either.
+const FLIP_STEPS: usize = 16;
+
+/// Frames over which a skinned surface bends: 0.32 radians of its bone, half an octave and more where it bends most.
+const SKINNED_FRAMES: f64 = 16.0;
 
 /// Flips under a shift by a part of a pixel: soft and hard changes.
 pub const TRANSLATION: Claim = Claim {
@@ -99,10 +115,10 @@ fn translation(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
                     let here = sighting(&scene, &mut rng).placed(place, subject.precision);
                     let footprint = here.fragment.footprint;
                     let motion = if along_x { footprint.dpdx } else { footprint.dpdy } * shift;
-                    let kinship = Kinship::new(subject, &subject.nominal(&footprint), motion);
+                    let pair = PairLaw::new(subject, &subject.nominal(&footprint), motion);
                     for (alpha, [mean, variance]) in ALPHAS.into_iter().zip(&mut expected) {
                         let probability =
-                            2.0 * alpha * (1.0 - alpha) * (1.0 - kinship.visibility_correlation(alpha));
+                            2.0 * alpha * (1.0 - alpha) * (1.0 - pair.visibility_correlation(alpha));
                         *mean += probability;
                         *variance += probability * (1.0 - probability);
                     }
@@ -147,7 +163,7 @@ fn translation(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
         n,
         effect: Some(effect),
         effect_name: "error in the share that flips",
-        detectable: detectable(&points),
+        detectable: detectable_error(&points),
         seen,
         evidence: Evidence::Quantity { abscissa: "alpha", ordinate: "share that flips", points },
     })

@@ -1,19 +1,34 @@
 //! Thresholds over the frames of one point, and over the frames of one pixel.
 
-use super::determinism::{differing, fragments, trial};
-use super::stability::detectable;
-use super::uniform::reject_outsiders;
-use super::{Attempt, Claim, Conclusion, Promise, Trial, detectable_share};
 use crate::check::evidence::ComparedShare;
-use crate::check::kinship::Kinship;
-use crate::check::sample::{general_scenes, placement, sighting};
-use crate::check::tolerance::{
-    ALPHAS, DRIFT, FRAME_LAGS, FRAME_POINTS, FRAMES, NEWEST, STRATUM_ROUNDING, WIDE,
-};
-use crate::check::{Draw, Evidence, Subject, Verdict};
+use crate::check::input::{fragments_everywhere, general_scenes, placement, sighting};
+use crate::check::judge::{detectable_error, differing, equality};
+use crate::check::predict::PairLaw;
+use crate::check::tolerance::{ALPHAS, WIDE};
+use crate::check::trial::reject_outsiders;
+use crate::check::{Attempt, Claim, Conclusion, Draw, Evidence, Promise, Subject, Trial, Verdict};
 use crate::scene::Fragment;
 use crate::stats::normal;
 use std::collections::HashMap;
+
+/// Frames at which a static threshold is asked: neighbours, powers of two, the last one; or as many periods.
+const FRAMES: [u32; 6] = [0, 1, 2, 7, 1024, u32::MAX];
+
+/// What roundings of `f32` leave between two thresholds of one point in different strata: the sum, the part after the
+/// point and the clamp at 2^-24.
+const STRATUM_ROUNDING: f64 = 1.0 / 4_194_304.0;
+
+/// Pixels by which the image moves in a frame or period where the noise of one pixel is followed.
+const DRIFT: f64 = 0.15;
+
+/// Frames or periods between two thresholds of one pixel: within the fine cell, across it, and beyond the coarse one.
+const FRAME_LAGS: [u32; 4] = [1, 2, 5, 16];
+
+/// Points at each lag and of each exponential average: a correlation of 0.05 shows.
+const FRAME_POINTS: usize = 1 << 15;
+
+/// Weight of the newest frame in an exponential average: that of common temporal antialiasing.
+const NEWEST: f64 = 0.1;
 
 /// A threshold knows of the frame where it stands among those over which it spreads, and a static one nothing.
 pub const STATIC: Claim = Claim {
@@ -71,12 +86,12 @@ fn in_frame(subject: &Subject<'_>, points: &[Fragment], frame: u32) -> Vec<f64> 
 }
 
 fn unchanging(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
-    let points = fragments(subject, draw, STATIC.id);
+    let points = fragments_everywhere(subject, draw, STATIC.id);
     // Whole periods from the first frame, as far as frames can be counted.
     let periods = FRAMES.map(|frame| frame.min(u32::MAX / subject.frames) * subject.frames);
     let [first, others @ ..] = periods.map(|frame| in_frame(subject, &points, frame));
     let (different, told) = differing(&points, &first, &others);
-    Ok(trial(points.len(), different, told, "in another frame"))
+    Ok(equality(points.len(), different, told, "in another frame"))
 }
 
 /// Thresholds of points in general position over one period from a frame on: frame by frame.
@@ -104,7 +119,7 @@ fn stratified(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     }
     let points = general_points(subject, draw.samples(FRAME_POINTS / 8), draw, STRATIFIED.id);
     let stratum = 1.0 / f64::from(subject.frames);
-    let (mut bad, mut largest, mut first) = (0, 0.0_f64, None);
+    let (mut bad, mut largest, mut first) = (0_u64, 0.0_f64, None);
     // From the first frame on, and from one in the middle of a period.
     let halves = points.split_at(points.len() / 2);
     for (points, from) in [(halves.0, 0), (halves.1, 4 * subject.frames + subject.frames / 2)] {
@@ -123,22 +138,15 @@ fn stratified(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
             }
         }
     }
-    let n = points.len() as f64;
-    Ok(Trial {
-        conclusion: Conclusion::Exact { holds: bad == 0 },
-        statistic: Some(largest),
-        statistic_name: "largest error of a distance between neighbouring strata".into(),
-        n: points.len() as u64,
-        effect: Some(f64::from(bad) / n),
-        effect_name: "share of points without every stratum",
-        detectable: Some(detectable_share(n)),
-        seen: format!(
-            "{:.2} % of points do not take each stratum once; first {}",
-            100.0 * f64::from(bad) / n,
-            first.unwrap_or_default()
-        ),
-        evidence: Evidence::None,
-    })
+    let seen = format!(
+        "{:.2} % of points do not take each stratum once; first {}",
+        100.0 * bad as f64 / points.len() as f64,
+        first.unwrap_or_default()
+    );
+    let name = "largest error of a distance between neighbouring strata";
+    let counted =
+        Trial::counted(bad, points.len() as u64, name, "share of points without every stratum", seen);
+    Ok(Trial { statistic: Some(largest), ..counted })
 }
 
 /// A mean that was measured: its expectation, and the standard deviation of the mean.
@@ -192,7 +200,7 @@ fn worst_mean(means: &[Mean], n: usize, effect_name: &'static str, axes: [&'stat
         n: n as u64,
         effect: Some(effect),
         effect_name,
-        detectable: detectable(&points),
+        detectable: detectable_error(&points),
         seen: format!(
             "{} at {}: {:.5}, {:.5} is predicted",
             worst.name, worst.x, worst.measured, worst.predicted
@@ -212,8 +220,8 @@ fn serial(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
                 let place = placement(&mut rng) * WIDE;
                 let here = sighting(&scene, &mut rng).placed(place, subject.precision);
                 let motion = here.fragment.footprint.dpdx * (f64::from(lag) * DRIFT);
-                let kinship = Kinship::new(subject, &subject.nominal(&here.fragment.footprint), motion);
-                expected.push(kinship.correlation());
+                let pair = PairLaw::new(subject, &subject.nominal(&here.fragment.footprint), motion);
+                expected.push(pair.correlation());
                 // The same pixel, where another point of the surface has come.
                 let there = here.moved(motion, subject.precision).fragment;
                 before.push(here.fragment);

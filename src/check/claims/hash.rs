@@ -1,21 +1,31 @@
 //! The hash of single cells, seen through thresholds at whole octaves, where the other octave has no weight.
 
-use super::atoms::detectable_factor;
-use super::cells::{at_scale, draw_cell};
-use super::uniform::reject_outsiders;
-use super::{Attempt, Claim, Conclusion, Promise, Trial};
 use crate::check::evidence::NamedHistogram;
-use crate::check::sample::UsedCells;
-use crate::check::tolerance::{
-    BINS, DIFFERENCE_PAIRS, DRAWS_A_SAMPLE, FAR_PAIRS, MEETING_VALUES, PAIR_BINS, POWER, RESONANCE_PAIRS,
-    RESONANCES, SINGLE_LEVEL, VALUE_CELLS,
-};
-use crate::check::{Draw, Evidence, Subject, Verdict};
-use crate::stats::histogram::Histogram;
-use crate::stats::{binomial, chi_square, correlation, power};
+use crate::check::input::{UsedCells, at_scale, draw_cell};
+use crate::check::judge::{detectable_factor, histogram, uncorrelated};
+use crate::check::tolerance::{DRAWS_A_SAMPLE, FAR_PAIRS, PAIR_BINS};
+use crate::check::trial::reject_outsiders;
+use crate::check::{Attempt, Claim, Conclusion, Draw, Evidence, Promise, Subject, Trial, Verdict};
+use crate::stats::{binomial, chi_square, correlation};
 use crate::threshold::footprint::Footprint;
 use glam::{DVec3, dvec3};
 use rand::rngs::Xoshiro256PlusPlus;
+
+/// Pairs of neighbours whose difference is taken, along each of four directions: 1024 expected in every bin.
+const DIFFERENCE_PAIRS: usize = 1 << 16;
+
+/// Cells whose thresholds are compared with each other: 512 pairs meet at [`MEETING_VALUES`].
+const VALUE_CELLS: usize = 1 << 16;
+
+/// Share of pairs of cells that may have one threshold: four times that of a lattice of 2^24 values.
+const MEETING_VALUES: f64 = 1.0 / 4_194_304.0;
+
+/// Cells in x and y between which both phases of the sine hash, 17 x + 0.1 y and 13 y + x, advance by all but a whole
+/// number of half turns; its two-dimensional form has correlations up to 0.2 there.
+const RESONANCES: [[i32; 2]; 5] = [[355, 0], [710, 0], [3726, -232], [3460, -785], [2750, -785]];
+
+/// Pairs of cells at each resonance: shows a correlation of 0.03.
+const RESONANCE_PAIRS: usize = 1 << 16;
 
 /// A cell and the eight cells of the next octave that lie in it.
 pub const CHILDREN: Claim = Claim {
@@ -114,13 +124,12 @@ fn differences(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
         let values = groups(subject, draw.samples(DIFFERENCE_PAIRS), &mut rng, |cell| {
             [in_cell(subject, cell, 0), in_cell(subject, cell + step, 0)]
         })?;
-        let mut counts = Histogram::new(BINS);
-        counts.extend(values.chunks_exact(2).map(|pair| {
+        let counts = histogram(values.chunks_exact(2).map(|pair| {
             let difference = pair[1] - pair[0];
             difference - difference.floor()
         }));
         tests.extend(chi_square::uniform(counts.counts()));
-        evidence.push(NamedHistogram { name: format!("along {name}"), counts: counts.counts().to_vec() });
+        evidence.push(NamedHistogram::new(format!("along {name}"), &counts));
     }
     let n = tests.iter().map(|test| test.n).sum();
     let seen = "some steps between neighbouring thresholds come up more often than others".into();
@@ -176,17 +185,6 @@ fn resonance(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     let Some((found, [x, y])) = worst else {
         return Ok(Trial::without(Conclusion::Inconclusive, "no distance was tried"));
     };
-    let tests = RESONANCES.len() as f64;
-    let sigma = 1.0 / (found.n as f64 - 1.0).sqrt();
-    Ok(Trial {
-        conclusion: Conclusion::Probability((tests * found.p).min(1.0)),
-        statistic: Some(found.z),
-        statistic_name: format!("z of the correlation, worst of {tests}"),
-        n: found.n,
-        effect: Some(found.r.abs()),
-        effect_name: "correlation",
-        detectable: Some(power::detectable_shift_z(sigma, SINGLE_LEVEL / tests, POWER)),
-        seen: format!("thresholds of cells that are ({x}, {y}) apart have a correlation of {:+.4}", found.r),
-        evidence: Evidence::None,
-    })
+    let seen = format!("thresholds of cells that are ({x}, {y}) apart have a correlation of {:+.4}", found.r);
+    Ok(uncorrelated(&found, RESONANCES.len(), seen))
 }

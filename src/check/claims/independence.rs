@@ -1,14 +1,16 @@
 //! Thresholds of different cells have nothing to do with each other.
 
-use super::uniform::reject_outsiders;
-use super::{Attempt, Claim, Promise, Trial};
-use crate::check::sample::{Sighting, UsedCells, general_scenes, placement, sighting};
-use crate::check::tolerance::{DRAWS_A_PLACE, DRAWS_A_SAMPLE, FAR_PAIRS, NEIGHBOUR_PAIRS, PAIR_BINS};
-use crate::check::{Draw, Evidence, Subject, Verdict};
+use crate::check::input::{Sighting, UsedCells, general_scenes, placement, sighting};
+use crate::check::tolerance::{DRAWS_A_PLACE, DRAWS_A_SAMPLE, FAR_PAIRS, PAIR_BINS};
+use crate::check::trial::reject_outsiders;
+use crate::check::{Attempt, Claim, Draw, Evidence, Promise, Subject, Trial, Verdict};
 use crate::scene::Fragment;
 use crate::stats::{chi_square, correlation};
 use glam::{DVec3, dvec3};
 use rand::rngs::Xoshiro256PlusPlus;
+
+/// Pairs of neighbours along each axis: 256 expected in every square.
+const NEIGHBOUR_PAIRS: usize = 1 << 16;
 
 /// Serial test of neighbouring coarse cells.
 pub const NEIGHBOURS: Claim = Claim {

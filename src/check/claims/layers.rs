@@ -1,17 +1,23 @@
 //! Transparent layers one behind the other: each lets its own share through, whatever the others do.
 
-use super::uniform::reject_outsiders;
-use super::{Attempt, Claim, Conclusion, Promise, Trial};
-use crate::check::sample::{UsedCells, general_scenes, placed, placement, sighting};
-use crate::check::tolerance::{
-    DRAWS_A_SAMPLE, LAYER_PAIRS, LAYER_SAMPLES, LEAST_LAYER_DISTANCE, PAIR_BINS, PLACEMENT,
-};
-use crate::check::{Draw, Evidence, Subject, Verdict};
+use crate::check::input::{UsedCells, general_scenes, placed, placement, sighting};
+use crate::check::tolerance::{DRAWS_A_SAMPLE, PAIR_BINS, PLACEMENT};
+use crate::check::trial::reject_outsiders;
+use crate::check::{Attempt, Claim, Draw, Evidence, Promise, Subject, Trial, Verdict};
 use crate::scene::{Fragment, Rectangle, Scene};
 use crate::stats::chi_square::{self, ChiSquare};
 use crate::stats::correlation;
 use crate::stats::seed::uniform01;
 use rand::rngs::Xoshiro256PlusPlus;
+
+/// Pairs of layers: the bias of the `f32` sine hash differs from one to the next.
+const LAYER_PAIRS: usize = 8;
+
+/// Samples of each pair of layers: 128 expected in every square.
+const LAYER_SAMPLES: usize = 1 << 15;
+
+/// Two layers are at least this far apart along z, in object units: many cells.
+const LEAST_LAYER_DISTANCE: f64 = 1.0;
 
 /// Pairs of thresholds at the same x and y on two planes of constant z.
 pub const PARALLEL: Claim = Claim {
@@ -37,9 +43,7 @@ pub const QUARTER: Claim = Claim {
 
 fn parallel(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     let mut rng = draw.rng(PARALLEL.id);
-    let Some(wall) = Scene::all().into_iter().find(|scene| scene.name == "wall") else {
-        return Ok(Trial::without(Conclusion::Inconclusive, "there is no scene of that name"));
-    };
+    let wall = Scene::wall();
     both_kept(
         subject,
         (0..LAYER_PAIRS).map(|_| samples(subject, &wall, draw.samples(LAYER_SAMPLES), &mut rng)),

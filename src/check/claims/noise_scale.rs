@@ -1,15 +1,27 @@
 //! The size of the noise: how far one has to go along the screen until the threshold changes.
 
-use super::replicas::{self, Mean};
-use super::stability::predicted;
-use super::uniform::reject_outsiders;
-use super::{Attempt, Claim, Promise, Trial};
 use crate::check::evidence::ComparedShare;
-use crate::check::sheet::{Sheet, Start};
-use crate::check::tolerance::{SCAN_LINES, SCAN_STEPS, STEPS_A_SIZE, TILT_STRETCH};
-use crate::check::{Draw, Evidence, Subject, Verdict};
+use crate::check::input::{Patch, Start};
+use crate::check::judge::replicate_means;
+use crate::check::judge::replicate_means::Mean;
+use crate::check::predict::redraw_probability;
+use crate::check::tolerance::TILT_STRETCH;
+use crate::check::trial::reject_outsiders;
+use crate::check::{Attempt, Claim, Draw, Evidence, Promise, Subject, Trial, Verdict};
 use glam::DVec2;
 use rand::rngs::Xoshiro256PlusPlus;
+
+/// Scan lines of each kind, along each screen axis: sees a size of the noise that is off by a tenth, which four hundred
+/// would not.
+const SCAN_LINES: usize = 1 << 10;
+
+/// Steps of a scan line, an eighth of the claimed size each: four times that size, so that lines of any patch change some
+/// cells and the count of changes is not all chance.
+const SCAN_STEPS: u32 = 32;
+
+/// Steps of a scan line within the claimed size: also the smallest cells, half of that size, are left by one step in
+/// four only.
+const STEPS_A_SIZE: f64 = 8.0;
 
 /// Mean run length on surfaces that face the camera.
 pub const FRONTAL: Claim = Claim {
@@ -39,7 +51,7 @@ pub const TILTED: Claim = Claim {
 /// Groups of lerp factors in the picture.
 const PICTURE_GROUPS: usize = 8;
 
-/// One walk over a sheet.
+/// One walk over a patch.
 struct Line {
     lerp_factor: f64,
     changes: f64,
@@ -71,10 +83,10 @@ fn trial(claim: &Claim, kinds: &[(f64, &str)], subject: &Subject<'_>, draw: &Dra
     };
     let evidence =
         Evidence::Quantity { abscissa: "lerp factor", ordinate: "mean run length [pixels]", points };
-    Ok(replicas::worst_of(&means, n, "relative error in changes per pixel", seen, evidence))
+    Ok(replicate_means::worst_of(&means, n, "relative error in changes per pixel", seen, evidence))
 }
 
-/// Walks along a screen axis, each time over a sheet of its own at a place of its own.
+/// Walks along a screen axis, each time over a patch of its own at a place of its own.
 fn lines(
     subject: &Subject<'_>,
     stretch: f64,
@@ -86,15 +98,15 @@ fn lines(
     let mut fragments = Vec::with_capacity(n * (SCAN_STEPS as usize + 1));
     let mut lines = Vec::with_capacity(n);
     for _ in 0..n {
-        let sheet = Sheet::draw(subject, stretch, rng);
-        let footprint = sheet.footprint();
+        let patch = Patch::draw(subject, stretch, rng);
+        let footprint = patch.footprint();
         lines.push(Line {
             lerp_factor: subject.nominal(&footprint).lerp_factor,
             changes: 0.0,
-            expected: f64::from(SCAN_STEPS) * predicted(subject, &footprint, sheet.lag(step)),
+            expected: f64::from(SCAN_STEPS) * redraw_probability(subject, &footprint, patch.lag(step)),
         });
         let start = Start::draw(rng);
-        fragments.extend((0..=SCAN_STEPS).map(|k| sheet.fragment(subject, &start, step * f64::from(k))));
+        fragments.extend((0..=SCAN_STEPS).map(|k| patch.fragment(subject, &start, step * f64::from(k))));
     }
     let values = subject.thresholds(&fragments);
     reject_outsiders(&fragments, &values)?;

@@ -1,11 +1,12 @@
 //! The range of the threshold, on every surface, with derivatives as they are and as a GPU takes them.
 
-use super::{Attempt, Claim, Conclusion, Promise, Trial, detectable_share};
-use crate::check::sample::{placed, placement};
-use crate::check::tolerance::RANGE_RESOLUTION;
-use crate::check::{Draw, Evidence, Subject, Verdict};
+use crate::check::input::{placed, placement};
+use crate::check::trial::describe;
+use crate::check::{Attempt, Claim, Draw, Promise, Subject, Trial, Verdict};
 use crate::scene::{Fragment, Scene};
-use crate::threshold::footprint::Footprint;
+
+/// Pixels of the image over which the range is tried.
+const RANGE_RESOLUTION: [u32; 2] = [256, 192];
 
 /// Every threshold is a number in (0, 1], so that alpha 0 never passes and alpha 1 always does.
 pub const RANGE: Claim = Claim {
@@ -41,26 +42,6 @@ fn range(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
         n += thresholds.len();
         outside += count;
     }
-    Ok(Trial {
-        conclusion: Conclusion::Exact { holds: outside == 0 },
-        statistic: Some(outside as f64),
-        statistic_name: "thresholds outside (0, 1]".into(),
-        n: n as u64,
-        effect: Some(outside as f64 / n as f64),
-        effect_name: "share of footprints",
-        detectable: Some(detectable_share(n as f64)),
-        seen: seen.join("; "),
-        evidence: Evidence::None,
-    })
-}
-
-/// Writes a footprint and its threshold so that they can be tried again.
-pub(super) fn describe(footprint: &Footprint<f64>, threshold: f64) -> String {
-    let vector = |v: glam::DVec3| format!("({:?}, {:?}, {:?})", v.x, v.y, v.z);
-    format!(
-        "{threshold:?} at position {}, dpdx {}, dpdy {}",
-        vector(footprint.position),
-        vector(footprint.dpdx),
-        vector(footprint.dpdy)
-    )
+    let name = "thresholds outside (0, 1]";
+    Ok(Trial::counted(outside as u64, n as u64, name, "share of footprints", seen.join("; ")))
 }

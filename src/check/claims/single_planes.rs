@@ -1,16 +1,21 @@
 //! Uniformity on one plane at a time: the biases of several planes add up here and do not cancel.
 
-use super::uniform::{histogram, reject_outsiders, uniformity};
-use super::{Attempt, Claim, Conclusion, Promise, Trial};
 use crate::check::evidence::NamedHistogram;
-use crate::check::sample::independent;
-use crate::check::sheet::rotation;
-use crate::check::tolerance::{BINS, PLANE_SAMPLES, PLANES};
-use crate::check::{Draw, Evidence, Subject, Verdict};
+use crate::check::input::{independent, rotation};
+use crate::check::judge::{histogram, uniformity};
+use crate::check::tolerance::BINS;
+use crate::check::trial::reject_outsiders;
+use crate::check::{Attempt, Claim, Conclusion, Draw, Evidence, Promise, Subject, Trial, Verdict};
 use crate::scene::{Camera, Rectangle, Scene};
 use crate::stats::chi_square::ChiSquare;
 use glam::{DMat3, DVec3};
 use rand::rngs::Xoshiro256PlusPlus;
+
+/// Planes of a claim about single planes.
+const PLANES: usize = 8;
+
+/// Samples on each plane: eight times what shows the bias of the `f32` sine hash.
+const PLANE_SAMPLES: usize = 1 << 15;
 
 /// Planes of constant z.
 pub const CONSTANT_Z: Claim = Claim {
@@ -61,9 +66,7 @@ fn planes(
     draw: &Draw,
 ) -> Attempt<Trial> {
     let mut rng = draw.rng(claim.id);
-    let Some(wall) = Scene::all().into_iter().find(|scene| scene.name == "wall") else {
-        return Ok(Trial::without(Conclusion::Inconclusive, "there is no scene of that name"));
-    };
+    let wall = Scene::wall();
     let mut tests: Vec<ChiSquare> = Vec::new();
     let mut evidence = Vec::new();
     let mut worst_bias = 0.0_f64;
@@ -82,8 +85,7 @@ fn planes(
             worst_bias = bias;
         }
         let distance = samples.first().map_or(f64::NAN, |sample| sample.footprint.position.dot(turn.z_axis));
-        evidence
-            .push(NamedHistogram { name: format!("{label}{distance:.3}"), counts: counts.counts().to_vec() });
+        evidence.push(NamedHistogram::new(format!("{label}{distance:.3}"), &counts));
     }
     let Some(sum) =
         tests.into_iter().reduce(|a, b| ChiSquare::new(a.statistic + b.statistic, a.dof + b.dof, a.n + b.n))

@@ -1,28 +1,42 @@
 //! The noise as a picture: its autocorrelation and its spectrum, against what cells of the claimed size predict.
 //!
 //! White noise is the wrong model: neighbouring pixels share cells, so low frequencies are stronger than high ones,
-//! by up to a factor of four. The expected periodogram is known exactly, and every image of a sheet is divided by it.
+//! by up to a factor of four. The expected periodogram is known exactly, and every image of a patch is divided by it.
 //!
 //! Noise that is constant on cells is not stationary: frequencies whose distance is a frequency of the grid belong
 //! together. So what is tested by a closed law is one image against the next, not one frequency against the next.
 
-use super::replicas::{self, Mean};
-use super::uniform::reject_outsiders;
-use super::{Attempt, Claim, Conclusion, Promise, Trial};
 use crate::check::evidence::ComparedShare;
-use crate::check::kinship::Kinship;
-use crate::check::sheet::Sheet;
+use crate::check::input::Patch;
+use crate::check::judge::replicate_means;
+use crate::check::judge::replicate_means::Mean;
+use crate::check::predict::PairLaw;
 use crate::check::subject::Nominal;
-use crate::check::tolerance::{
-    IMAGES_A_SHEET, LAGS, POWER, RINGS, SINGLE_LEVEL, SPECTRUM_IMAGES, SPECTRUM_SIDE, TILT_STRETCH,
-};
-use crate::check::{Draw, Evidence, Subject, Verdict};
+use crate::check::tolerance::{POWER, SINGLE_LEVEL, TILT_STRETCH};
+use crate::check::trial::reject_outsiders;
+use crate::check::{Attempt, Claim, Conclusion, Draw, Evidence, Promise, Subject, Trial, Verdict};
 use crate::scene::Fragment;
 use crate::stats::spectrum::{self, Ordinate, SECTORS};
 use crate::stats::{StatsError, autocorrelation, ecdf, fisher_g, power};
 use crate::threshold::cdf::MEAN;
 use glam::DVec2;
 use rand::rngs::Xoshiro256PlusPlus;
+
+/// Images of each kind of patch on each side of lerp factor 1/2: enough for a usable tail of Student's law, and to see a
+/// correlation that is off by a tenth, or half the power of the lowest frequencies missing.
+const SPECTRUM_IMAGES: usize = 64;
+
+/// Images that share a patch, each at a place of its own: the expected spectrum costs more than an image.
+const IMAGES_A_PATCH: usize = 4;
+
+/// Pixels along a side of an image, one claimed size of the noise apart: 256 cells or more.
+const SPECTRUM_SIDE: usize = 32;
+
+/// Lags along each axis up to which the autocorrelation is tried, in claimed sizes: a cell is at most two sizes long.
+const LAGS: i64 = 4;
+
+/// Rings of frequencies from 0 to half a cycle for each claimed size: the first has eleven ordinates an image.
+const RINGS: usize = 6;
 
 /// Correlation of pixels at each lag.
 pub const AUTOCORRELATION: Claim = Claim {
@@ -65,16 +79,17 @@ pub const ANISOTROPY: Claim = Claim {
     run: anisotropy,
 };
 
-/// Kinds of sheets: the ratio of the two derivatives, and what that is called.
+/// Kinds of patches: the ratio of the two derivatives, and what that is called.
 const KINDS: [(f64, &str); 3] = [
     (1.0, "frontal"),
     (TILT_STRETCH, "foreshortened along x"),
     (1.0 / TILT_STRETCH, "foreshortened along y"),
 ];
 
+/// Pixels of an image along x and y.
 const SIZE: [usize; 2] = [SPECTRUM_SIDE; 2];
 
-/// Images of one kind of sheet on one side of lerp factor 1/2, where an error in the weights has one sign.
+/// Images of one kind of patch on one side of lerp factor 1/2, where an error in the weights has one sign.
 struct Group<T> {
     name: String,
     images: Vec<T>,
@@ -95,17 +110,17 @@ fn measured<T, P>(
     for (stretch, kind) in KINDS {
         for (above, side) in [(false, "below"), (true, "above")] {
             let mut group = Group { name: format!("{kind}, lerp factor {side} 1/2"), images: Vec::new() };
-            for _ in 0..images.div_ceil(IMAGES_A_SHEET) {
-                let (sheet, nominal) = sheet(subject, stretch, above, &mut rng);
+            for _ in 0..images.div_ceil(IMAGES_A_PATCH) {
+                let (patch, nominal) = patch(subject, stretch, above, &mut rng);
                 let spacing = subject.hash_scale;
                 let fragments: Vec<Fragment> =
-                    (0..IMAGES_A_SHEET).flat_map(|_| sheet.image(subject, SIZE, spacing, &mut rng)).collect();
+                    (0..IMAGES_A_PATCH).flat_map(|_| patch.image(subject, SIZE, spacing, &mut rng)).collect();
                 let mut values = subject.thresholds(&fragments);
                 reject_outsiders(&fragments, &values)?;
                 values.iter_mut().for_each(|value| *value -= MEAN);
                 let prepared = prepare(&|lag| {
                     let pixels = DVec2::from_array(lag.map(|l| l as f64)) * spacing;
-                    Kinship::new(subject, &nominal, sheet.lag(pixels)).correlation()
+                    PairLaw::new(subject, &nominal, patch.lag(pixels)).correlation()
                 });
                 for image in values.chunks_exact(SIZE[0] * SIZE[1]) {
                     group.images.push(measure(image, &prepared).map_err(without_answer)?);
@@ -117,13 +132,13 @@ fn measured<T, P>(
     Ok(groups)
 }
 
-/// Draws a sheet whose lerp factor is at least 1/2, or below.
-fn sheet(subject: &Subject<'_>, stretch: f64, above: bool, rng: &mut Xoshiro256PlusPlus) -> (Sheet, Nominal) {
+/// Draws a patch whose lerp factor is at least 1/2, or below.
+fn patch(subject: &Subject<'_>, stretch: f64, above: bool, rng: &mut Xoshiro256PlusPlus) -> (Patch, Nominal) {
     loop {
-        let sheet = Sheet::draw(subject, stretch, rng);
-        let nominal = subject.nominal(&sheet.footprint());
+        let patch = Patch::draw(subject, stretch, rng);
+        let nominal = subject.nominal(&patch.footprint());
         if (nominal.lerp_factor >= 0.5) == above {
-            return (sheet, nominal);
+            return (patch, nominal);
         }
     }
 }
@@ -180,7 +195,7 @@ fn autocorrelation(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     let seen = |mean: &Mean| format!("{}: the correlation is off by {:+.3}", mean.name, mean.mean);
     let evidence =
         Evidence::Quantity { abscissa: "lag along x [sizes of the noise]", ordinate: "correlation", points };
-    Ok(replicas::worst_of(&means, pixels(&groups), "error in a correlation", seen, evidence))
+    Ok(replicate_means::worst_of(&means, pixels(&groups), "error in a correlation", seen, evidence))
 }
 
 /// The ordinates of each image for what its cells predict.
@@ -320,5 +335,5 @@ fn powers(
         }
     }
     let evidence = Evidence::Quantity { abscissa, ordinate: "power / predicted", points };
-    replicas::worst_of(&means, pixels(groups), "relative error of a power", seen, evidence)
+    replicate_means::worst_of(&means, pixels(groups), "relative error of a power", seen, evidence)
 }

@@ -1,6 +1,6 @@
 //! Right in the mean, and wrong on each surface: biases that cancel where surfaces are pooled.
 
-use super::Specimen;
+use super::defect::Specimen;
 use super::port::SOUND;
 use crate::check::Subject;
 use crate::check::subject::Precision;

@@ -1,6 +1,6 @@
 //! Eq. 2 left out, or copied with a slip.
 
-use super::Specimen;
+use super::defect::Specimen;
 use super::port::{Port, SOUND};
 use crate::check::Subject;
 use crate::threshold::cdf::{density, minor_weight, quantile};

@@ -1,6 +1,6 @@
 //! Cells that are cut wrongly, or that share a hash because it sees only a part of them.
 
-use super::Specimen;
+use super::defect::Specimen;
 use super::port::{Port, SOUND, cut, ideal_hash};
 use crate::threshold::hash::sine::{hash_2d, hash_3d};
 use glam::DVec3;

@@ -1,6 +1,6 @@
 //! The last step: a range that is cut, bent or left open.
 
-use super::Specimen;
+use super::defect::Specimen;
 use super::port::{Port, SOUND};
 use crate::check::Subject;
 

@@ -1,6 +1,6 @@
 //! The size of a pixel on the surface, measured wrongly. The marginal law does not notice: only the size of the noise does.
 
-use super::Specimen;
+use super::defect::Specimen;
 use super::port::{Port, SOUND, of_footprint, robust};
 use crate::check::Subject;
 use crate::check::subject::Precision;

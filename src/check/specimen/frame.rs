@@ -1,6 +1,6 @@
 //! Wrong from frame to frame, from pass to pass, from layer to layer.
 
-use super::Specimen;
+use super::defect::Specimen;
 use super::port::{Port, SOUND, ideal_hash};
 use crate::check::Subject;
 use crate::check::subject::Precision;

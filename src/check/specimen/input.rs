@@ -1,6 +1,6 @@
 //! Hashed from other coordinates than the object's.
 
-use super::Specimen;
+use super::defect::Specimen;
 use super::port::{Port, SOUND, ideal_hash};
 use crate::check::Subject;
 use crate::check::subject::Precision;

@@ -1,6 +1,6 @@
 //! Two hashes made one in another way than the CDF expects.
 
-use super::Specimen;
+use super::defect::Specimen;
 use super::port::{Port, SOUND, cell, ideal_hash, of_footprint, robust};
 use crate::check::Subject;
 use crate::check::subject::Precision;

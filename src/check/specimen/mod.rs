@@ -8,6 +8,8 @@ mod bias;
 mod cdf;
 mod cells;
 mod clamp;
+pub mod computed;
+mod defect;
 mod derivative;
 mod frame;
 mod hash;
@@ -20,31 +22,8 @@ mod pattern;
 mod port;
 mod repair;
 
+pub use defect::Specimen;
 pub use ideal::{Ideal, ideal};
-
-use super::Subject;
-use core::fmt;
-
-/// A threshold with one defect.
-#[derive(Clone, Copy)]
-pub struct Specimen {
-    /// Its name, in words joined by hyphens.
-    pub name: &'static str,
-    /// What is wrong, in one sentence.
-    pub defect: &'static str,
-    /// What to change, in one sentence.
-    pub mend: &'static str,
-    /// Identifier of the claim that must reject it.
-    pub claim: &'static str,
-    /// Makes the threshold.
-    pub subject: fn() -> Subject<'static>,
-}
-
-impl fmt::Debug for Specimen {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "Specimen({})", self.name)
-    }
-}
 
 /// The specimens, family by family.
 const FAMILIES: [&[Specimen]; 12] = [

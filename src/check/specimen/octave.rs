@@ -1,6 +1,6 @@
 //! The wrong octaves, or the wrong weight between them.
 
-use super::Specimen;
+use super::defect::Specimen;
 use super::port::{Port, SOUND, cell, cut, ideal_hash, of_footprint};
 use crate::check::Subject;
 use crate::check::subject::Precision;

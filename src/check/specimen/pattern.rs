@@ -1,6 +1,6 @@
 //! Patterns of dithering in the place of a hash: even at a glance, and the same everywhere.
 
-use super::Specimen;
+use super::defect::Specimen;
 use super::port::{Port, SOUND, ideal_hash};
 use crate::check::Subject;
 use crate::check::subject::Precision;

@@ -1,6 +1,6 @@
 //! What the listings leave out: the robust threshold without one of its repairs.
 
-use super::Specimen;
+use super::defect::Specimen;
 use super::port::robust;
 use crate::check::Subject;
 use crate::check::subject::Precision;

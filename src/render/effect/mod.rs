@@ -163,12 +163,15 @@ pub fn check(effects: &Effects) -> Result<(), String> {
         && independent.by == Apart::Word
     {
         let hash = effects.hashed.as_ref().map(|h| h.hash).or(effects.robust.as_ref().map(|r| r.hash));
-        if matches!(hash, Some(HashKind::Sine | HashKind::SineChi2 | HashKind::Pcg3d)) {
-            return Err(
-                "`independent.by` = \"word\" needs a hash that reads the word: mm4, xxhash32, pcg4d or \
-                        pcg-nested"
-                    .to_owned(),
-            );
+        if hash.is_some_and(|hash| !hash.reads_octave()) {
+            let known = HashKind::ALL.into_iter().filter(|hash| hash.reads_octave());
+            let [others @ .., last] = &known.map(HashKind::name).collect::<Vec<_>>()[..] else {
+                unreachable!()
+            };
+            return Err(format!(
+                "`independent.by` = \"word\" needs a hash that reads the word: {} or {last}",
+                others.join(", ")
+            ));
         }
     }
     for (what, present, met, need) in [

@@ -8,7 +8,6 @@ use super::style::{
 };
 use crate::check::evidence::{ComparedShare, NamedHistogram};
 use crate::check::{Evidence, Outcome};
-use crate::report::answer;
 use core::ops::Range;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
@@ -17,15 +16,13 @@ use plotters::style::text_anchor::{HPos, VPos};
 #[must_use]
 pub fn evidence(outcome: &Outcome) -> Option<String> {
     let Outcome { check, subject, precision, .. } = outcome;
-    let title = format!("{check} on {subject} in {precision}: {}", answer(outcome));
+    let title = format!("{check} on {subject} in {precision}: {}", outcome.answer());
     match &outcome.evidence {
         Evidence::None => None,
         Evidence::Histograms(groups) => Some(histograms(&title, groups)),
         Evidence::Pairs { side, counts } => Some(pairs(&title, *side, counts)),
-        Evidence::Comparison(shares) => {
-            let is_shift = outcome.check.starts_with("stability");
-            let x = if is_shift { "shift [pixels]" } else { "x" };
-            Some(comparison(&title, x, Axis::new("share", shares_range(shares), 5), shares))
+        Evidence::Shares { abscissa, points } => {
+            Some(comparison(&title, abscissa, Axis::new("share", shares_range(points), 5), points))
         }
         Evidence::Quantity { abscissa, ordinate, points } => {
             Some(comparison(&title, abscissa, Axis::new(ordinate, value_range(points), 5), points))

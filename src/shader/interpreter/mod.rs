@@ -188,6 +188,3 @@ impl Program {
         Ok(())
     }
 }
-
-#[cfg(test)]
-mod tests;

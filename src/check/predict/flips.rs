@@ -1,11 +1,12 @@
 //! How often a threshold passes alpha when the view of its point changes and the point stays where it is.
 //!
 //! The scales change, and with them the weights of the octaves, until other octaves take their place. How a point that
-//! moves changes its threshold is told by [`crate::check::kinship`]. Not in the paper; for hashes that are independent and
+//! moves changes its threshold is told by [`crate::check::pair`]. Not in the paper; for hashes that are independent and
 //! uniform.
 
 use super::shared_cell::copula_joint_visibility;
-use super::subject::{Nominal, Subject};
+use crate::check::Subject;
+use crate::check::subject::Nominal;
 use crate::threshold::cdf::quantile;
 use crate::threshold::robust::Join;
 use crate::threshold::two_scale::Variant;
@@ -55,8 +56,7 @@ pub fn flip_between(subject: &Subject<'_>, before: &Nominal, after: &Nominal, al
     }
 }
 
-/// Hands over the fractions of the coarser and of the finer of two views along an axis, and the whole octaves between
-/// them.
+/// Orders two views by their scale along an axis and calls `value(fractions, octaves_between)`, the coarser one first.
 fn on_scale(before: &Nominal, after: &Nominal, axis: usize, value: impl Fn([f64; 2], f64) -> f64) -> f64 {
     let place = |view: &Nominal| (libm::log2(view.coarse_scale[axis]), view.fraction[axis]);
     let (mut low, mut high) = (place(before), place(after));

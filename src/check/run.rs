@@ -1,35 +1,17 @@
 //! A run: claims on subjects, one family of tests.
 
-use super::claims::{self, Attempt, Claim, Conclusion, Trial};
-use super::tolerance::{FAMILY_LEVEL, SUSPICION};
-use super::{Budget, Draw, Outcome, Results, Subject, Verdict, findings};
+use super::claim::Claim;
+use super::claims;
+use super::results::{Results, Suite};
+use super::tolerance::FAMILY_LEVEL;
+use super::trial::{Attempt, Conclusion, Trial};
+use super::{Budget, Draw, Outcome, Subject, Verdict};
 use crate::stats::sequential::{self, Finding};
 use rayon::prelude::*;
 
-/// What a subject is measured by.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Suite {
-    /// Every claim, the hard cases among them: what a threshold should do.
-    #[default]
-    All,
-    /// As good as the paper: a rejection counts unless the paper's own listing is known to fail there too
-    /// ([`findings`]).
-    Paper,
-}
-
-impl Suite {
-    /// Both suites.
-    pub const ALL: [Self; 2] = [Self::All, Self::Paper];
-
-    /// The word by which a user asks for it.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::All => "all",
-            Self::Paper => "paper",
-        }
-    }
-}
+/// Corrected p-value up to which a claim is suspect and tried again with fresh inputs: one sound run in a hundred pays
+/// for a second try.
+pub const SUSPICION: f64 = 1.0e-2;
 
 /// Tries every claim on one subject, with seed 0.
 ///
@@ -112,7 +94,10 @@ fn tried(subject: &Subject<'_>, claim: &Claim, draw: &Draw) -> Trial {
 fn probability(trial: &Trial) -> Option<f64> {
     match trial.conclusion {
         Conclusion::Probability(p) => Some(p),
-        _ => None,
+        Conclusion::Exact { .. }
+        | Conclusion::Inconclusive
+        | Conclusion::Unavailable
+        | Conclusion::NotApplicable => None,
     }
 }
 
@@ -148,7 +133,8 @@ fn outcome(
         anchor: claim.anchor,
         statement: claim.statement,
         subject: subject.name.clone(),
-        precision: subject.precision.name(),
+        variant: subject.variant,
+        precision: subject.precision,
         verdict,
         expected: claim.expected,
         statistic: trial.statistic,
@@ -161,9 +147,8 @@ fn outcome(
         effect_name: trial.effect_name,
         detectable: trial.detectable,
         seed: draw.seed,
-        finding: (verdict != Verdict::Consistent).then_some(trial.seen),
+        seen: (verdict != Verdict::Consistent).then_some(trial.seen),
         known: None,
-        listing_fails: findings::of_listing(claim.id, subject.variant, subject.precision),
         evidence: trial.evidence,
     }
 }
@@ -171,7 +156,7 @@ fn outcome(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::check::claims::Promise;
+    use crate::check::claim::Promise;
     use crate::check::subject::Precision;
     use crate::threshold::two_scale::Variant;
 
@@ -209,7 +194,7 @@ mod tests {
             let found = outcomes(&[weak]).remove(0);
             assert_eq!(found.verdict, Verdict::Inconclusive);
             let expected = format!("100 samples are too few; this claim needs {needed}");
-            assert_eq!(found.finding, Some(expected));
+            assert_eq!(found.seen, Some(expected));
         }
         // What is seen all the same counts.
         weak.run = |_, _| Ok(says(1e-9, 100));
@@ -221,14 +206,14 @@ mod tests {
         let asks = claim("asks", |subject, _| {
             let scene = &crate::scene::Scene::all()[0];
             let rng = &mut crate::stats::seed::rng("suite.tests", 0);
-            let threshold = subject.threshold(crate::check::sample::sighting(scene, rng).fragment);
+            let threshold = subject.threshold(crate::check::input::sample::sighting(scene, rng).fragment);
             Ok(Trial::without(Conclusion::Exact { holds: threshold.is_some() }, "no threshold"))
         });
         let broken =
             Subject::batched("gone", Precision::F32, Variant::Isotropic, |_| Err("device lost".into()));
         for outcome in run_claims(&[asks, asks], &[broken], &Draw::default(), || {}) {
             assert_eq!(outcome.verdict, Verdict::Unavailable);
-            assert_eq!(outcome.finding.as_deref(), Some("device lost"));
+            assert_eq!(outcome.seen.as_deref(), Some("device lost"));
         }
     }
 }

@@ -3,8 +3,9 @@
 //! Neighbouring pixels share cells and so thresholds; where a claim needs independent values, no two of its
 //! fragments touch the same cell. A fragment is one place in all its coordinates, so that a subject may hash any of them.
 
-use super::subject::{Precision, Subject};
-use super::tolerance::{DRAWS_A_SAMPLE, PLACEMENT};
+use crate::check::subject::Precision;
+use crate::check::tolerance::{DRAWS_A_SAMPLE, EXACT_POINTS, PLACEMENT};
+use crate::check::{Draw, Subject};
 use crate::scene::{Camera, Fragment, Rectangle, Scene};
 use crate::stats::seed::uniform01;
 use crate::threshold::footprint::Footprint;
@@ -149,6 +150,19 @@ pub fn independent(
         }
     }
     samples
+}
+
+/// Fragments of all scenes, in no order.
+pub(crate) fn fragments_everywhere(subject: &Subject<'_>, draw: &Draw, claim: &str) -> Vec<Fragment> {
+    let mut rng = draw.rng(claim);
+    let scenes = Scene::all();
+    let count = draw.samples(EXACT_POINTS);
+    (0..count)
+        .map(|index| {
+            let place = placement(&mut rng);
+            sighting(&scenes[index % scenes.len()], &mut rng).placed(place, subject.precision).fragment
+        })
+        .collect()
 }
 
 /// Returns the built-in scenes that lie in general position: what the paper's sentences are about.

@@ -1,21 +1,20 @@
-//! Means of independent replicas: how claims about noise as a whole are tested.
+//! Means of independent replicates: how claims about noise as a whole are tested.
 //!
 //! Pixels of one image depend on each other in ways that hardly have a closed form; images at places of their own do
 //! not depend on each other at all. So each image gives one number whose expectation is known, and Student's law judges
 //! their mean.
 
-use super::{Conclusion, Trial};
-use crate::check::Evidence;
 use crate::check::tolerance::{POWER, SINGLE_LEVEL};
+use crate::check::{Conclusion, Evidence, Trial};
 use crate::stats::variance::Variance;
 use crate::stats::{beta, normal};
 
 /// The mean of independent numbers that should average to zero.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Mean {
+pub(crate) struct Mean {
     /// What was measured, for the report.
     pub name: String,
-    /// Mean of the replicas.
+    /// Mean of the replicates.
     pub mean: f64,
     /// Its standard error, from their spread.
     pub sigma: f64,
@@ -25,14 +24,14 @@ pub(super) struct Mean {
 }
 
 impl Mean {
-    /// Judges replicas; `None` for fewer than two.
-    pub fn of(name: impl Into<String>, replicas: &[f64]) -> Option<Self> {
-        let found = Variance::of(replicas).ok()?;
+    /// Judges replicates; `None` for fewer than two.
+    pub fn of(name: impl Into<String>, replicates: &[f64]) -> Option<Self> {
+        let found = Variance::of(replicates).ok()?;
         let is_exact = found.variance == 0.0 && found.mean == 0.0;
         Some(Self {
             name: name.into(),
             mean: found.mean,
-            sigma: (found.variance / replicas.len() as f64).sqrt(),
+            sigma: (found.variance / replicates.len() as f64).sqrt(),
             p: if is_exact { 1.0 } else { found.mean_p(0.0) },
             dof: found.dof,
         })
@@ -54,7 +53,7 @@ impl Mean {
 }
 
 /// A trial that rests on the worst of several means, all in units of one effect.
-pub(super) fn worst_of(
+pub(crate) fn worst_of(
     means: &[Mean],
     n: u64,
     effect_name: &'static str,
@@ -62,7 +61,7 @@ pub(super) fn worst_of(
     evidence: Evidence,
 ) -> Trial {
     let Some(worst) = means.iter().min_by(|a, b| a.p.total_cmp(&b.p)) else {
-        return Trial::without(Conclusion::Inconclusive, "there were no replicas");
+        return Trial::without(Conclusion::Inconclusive, "there were no replicates");
     };
     Trial {
         conclusion: Conclusion::Probability((worst.p * means.len() as f64).min(1.0)),
@@ -82,8 +81,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_replicas_that_are_all_zero_say_nothing() {
-        let p = |replicas: &[f64]| Mean::of("", replicas).map(|mean| mean.p);
+    fn only_replicates_that_are_all_zero_say_nothing() {
+        let p = |replicates: &[f64]| Mean::of("", replicates).map(|mean| mean.p);
         assert_eq!(p(&[0.0; 4]), Some(1.0));
         assert_eq!(p(&[0.3; 4]), Some(0.0));
         assert_eq!(p(&[0.3]), None);

@@ -1,6 +1,8 @@
 //! Every group of operations against values worked out by hand, and what is refused.
 
-use super::*;
+use hashed_alpha::shader::interpreter::{
+    Column, DeviceModel, Kind, Parameter, Program, Undefined, UndefinedKind, Unsupported, Values,
+};
 
 fn compile(source: &str) -> Result<Program, Unsupported> {
     let module =

@@ -1,11 +1,11 @@
-//! Sheets: surfaces whose derivatives are the same everywhere, as of a plane seen frontally or from far away.
+//! Patches: surfaces whose derivatives are the same everywhere, as of a plane seen frontally or from far away.
 //!
 //! Closed forms for noise as a whole (its size, its spectrum, the variance of coverage) are about one set of octaves and
-//! faces of cells at uniform places. A sheet has both, whatever its direction.
+//! faces of cells at uniform places. A patch has both, whatever its direction.
 
-use super::sample::placement;
-use super::subject::Subject;
-use super::tolerance::{LEAST_AXIS_SHARE, PLACEMENT, SHEET_OCTAVES, WIDE};
+use crate::check::Subject;
+use crate::check::input::sample::placement;
+use crate::check::tolerance::{PLACEMENT, WIDE};
 use crate::scene::Fragment;
 use crate::stats::seed::uniform01;
 use crate::threshold::footprint::Footprint;
@@ -13,27 +13,35 @@ use core::f64::consts::TAU;
 use glam::{DMat3, DQuat, DVec2, DVec3, dvec2};
 use rand::rngs::Xoshiro256PlusPlus;
 
-/// Pixels along each side of the screen on which sheets are seen.
+/// Derivatives of a patch times its hash scale lie in the octave from this one on: coarse cells of 2^-5 units, a
+/// thousandth of a cell being five roundings of an `f32` position within [`WIDE`] times [`PLACEMENT`].
+const PATCH_OCTAVES: f64 = -6.0;
+
+/// No object axis of a patch has less than this share of the largest derivative: twice the share to which the robust
+/// threshold raises it.
+const LEAST_AXIS_SHARE: f64 = 1.0 / 16.0;
+
+/// Pixels along each side of the screen on which patches are seen.
 const SCREEN: f64 = 1024.0;
 
-/// The derivatives of a sheet, exact in the precision of the subject it was drawn for.
+/// The derivatives of a patch, exact in the precision of the subject it was drawn for.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sheet {
+pub struct Patch {
     /// Object units per pixel along screen x.
     pub dpdx: DVec3,
     /// Object units per pixel along screen y.
     pub dpdy: DVec3,
 }
 
-impl Sheet {
-    /// Draws a sheet in general position: every direction alike, every place between two octaves alike.
+impl Patch {
+    /// Draws a patch in general position: every direction alike, every place between two octaves alike.
     ///
-    /// The derivative along screen x is `stretch` times as long as that along y; 1 is a sheet that is seen frontally. No
+    /// The derivative along screen x is `stretch` times as long as that along y; 1 is a patch that is seen frontally. No
     /// object axis is nearly without derivative, since there a listing and its robust form part.
     pub fn draw(subject: &Subject<'_>, stretch: f64, rng: &mut Xoshiro256PlusPlus) -> Self {
         loop {
             let turn = rotation(rng);
-            let longest = libm::exp2(SHEET_OCTAVES + uniform01(rng)) / subject.hash_scale;
+            let longest = libm::exp2(PATCH_OCTAVES + uniform01(rng)) / subject.hash_scale;
             let [along_x, along_y] = if stretch > 1.0 { [1.0, 1.0 / stretch] } else { [stretch, 1.0] };
             let drawn = Footprint {
                 position: DVec3::ZERO,
@@ -48,7 +56,7 @@ impl Sheet {
         }
     }
 
-    /// Returns the footprint of the sheet where its object is at its own origin: what its octaves follow from.
+    /// Returns the footprint of the patch where its object is at its own origin: what its octaves follow from.
     #[must_use]
     pub const fn footprint(&self) -> Footprint<f64> {
         Footprint { position: DVec3::ZERO, dpdx: self.dpdx, dpdy: self.dpdy }
@@ -60,7 +68,7 @@ impl Sheet {
         self.dpdx * pixels.x + self.dpdy * pixels.y
     }
 
-    /// Returns the fragment `place` pixels away from where the sheet begins.
+    /// Returns the fragment `place` pixels away from where the patch begins.
     #[must_use]
     pub fn fragment(&self, subject: &Subject<'_>, start: &Start, place: DVec2) -> Fragment {
         let lag = self.lag(place);
@@ -78,7 +86,7 @@ impl Sheet {
         }
     }
 
-    /// Returns the fragments of an image of the sheet, row by row and `spacing` pixels apart, at a place of its own.
+    /// Returns the fragments of an image of the patch, row by row and `spacing` pixels apart, at a place of its own.
     pub fn image(
         &self,
         subject: &Subject<'_>,
@@ -92,7 +100,7 @@ impl Sheet {
     }
 }
 
-/// Where a sheet begins, in every coordinate that a subject may hash.
+/// Where a patch begins, in every coordinate that a subject may hash.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Start {
     object: DVec3,

@@ -7,7 +7,8 @@
 use super::shared_cell::{
     copula_correlation, copula_joint_visibility, interpolated_correlation, interpolated_joint_visibility,
 };
-use super::subject::{Nominal, Subject};
+use crate::check::Subject;
+use crate::check::subject::Nominal;
 use crate::threshold::robust::Join;
 use crate::threshold::two_scale::Variant;
 use glam::DVec3;
@@ -26,9 +27,9 @@ pub enum Relation {
 /// How two thresholds are related: the relations that can occur with their probabilities; for the rest they are
 /// independent.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Kinship(pub Vec<(f64, Relation)>);
+pub struct PairLaw(pub Vec<(f64, Relation)>);
 
-impl Kinship {
+impl PairLaw {
     /// Returns how the thresholds are related at two points `lag` apart, in object units, where the cells are `nominal`.
     #[must_use]
     pub fn new(subject: &Subject<'_>, nominal: &Nominal, lag: DVec3) -> Self {
@@ -122,7 +123,7 @@ mod tests {
     fn every_join_is_as_alike_as_predicted() {
         let [dpdx, dpdy] = [dvec3(0.031, -0.007, 0.012), dvec3(-0.004, 0.021, 0.019)];
         let lag = 0.6 * dpdx + 0.3 * dpdy;
-        let mut rng = seed::rng("kinship.tests", 0);
+        let mut rng = seed::rng("pair.tests", 0);
         for join in Join::ALL {
             for variant in [Variant::Isotropic, Variant::Anisotropic] {
                 for hash_scale in [1.0, 1.37] {
@@ -134,20 +135,20 @@ mod tests {
                         .collect();
                     let far: Vec<Footprint<f64>> =
                         near.iter().map(|f| Footprint { position: f.position + lag, ..*f }).collect();
-                    let kinship = Kinship::new(&subject, &subject.nominal(&near[0]), lag);
+                    let pair = PairLaw::new(&subject, &subject.nominal(&near[0]), lag);
                     let (a, b) = (subject.thresholds(&near), subject.thresholds(&far));
                     let mean = |of: &dyn Fn(f64, f64) -> f64| {
                         a.iter().zip(&b).map(|(a, b)| of(*a, *b)).sum::<f64>() / a.len() as f64
                     };
                     let correlation = mean(&|a, b| 12.0 * (a - 0.5) * (b - 0.5));
-                    let predicted = kinship.correlation();
+                    let predicted = pair.correlation();
                     // Five standard errors.
                     let name = format!("{join} {variant} {hash_scale}");
                     assert!((correlation - predicted).abs() < 0.01, "{name}: {correlation} {predicted}");
                     for alpha in [0.3, 0.9] {
                         let kept = |t: f64| f64::from(t <= alpha) - alpha;
                         let found = mean(&|a, b| kept(a) * kept(b)) / (alpha * (1.0 - alpha));
-                        let predicted = kinship.visibility_correlation(alpha);
+                        let predicted = pair.visibility_correlation(alpha);
                         assert!((found - predicted).abs() < 0.03, "{name} {alpha}: {found} {predicted}");
                     }
                 }

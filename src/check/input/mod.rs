@@ -1,0 +1,15 @@
+//! Inputs of the claims, drawn by rule: fragments of surfaces, of cells, of patches, of motions.
+
+pub mod cell;
+pub mod motion;
+pub mod patch;
+pub mod sample;
+pub mod view;
+
+pub(crate) use cell::{at_scale, draw_cell, numerator};
+pub(crate) use motion::Motion;
+pub(crate) use patch::{Patch, Start, rotation};
+pub(crate) use sample::{
+    Sighting, UsedCells, fragments_everywhere, general_scenes, independent, placed, placement, sighting,
+};
+pub(crate) use view::{tangents, tilted, turned, zoomed};
