@@ -26,6 +26,7 @@ mod oracle;
 mod prop;
 mod references;
 mod severity;
+mod stats;
 mod threads;
 
 #[cfg(feature = "shader")]
@@ -39,6 +40,8 @@ mod shader_parity;
 #[cfg(feature = "shader")]
 mod shader_text;
 
+#[cfg(feature = "render")]
+mod extension_effects;
 #[cfg(feature = "render")]
 mod render;
 #[cfg(feature = "render")]
