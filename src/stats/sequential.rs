@@ -31,7 +31,7 @@ pub const GROWTH: usize = 4;
 
 /// Tells what a round says about one hypothesis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Finding {
+pub enum Decision {
     /// It is false, at the overall level.
     Rejected,
     /// It goes to the next round, on fresh data.
@@ -47,7 +47,7 @@ pub struct Judgement {
     /// `alpha * WEIGHTS[round]`.
     pub p_holm: f64,
     /// What the round says.
-    pub finding: Finding,
+    pub decision: Decision,
 }
 
 /// Judges the p-values of one round; the result is in their order.
@@ -70,14 +70,14 @@ pub fn judge(p: &[f64], round: usize, alpha: f64, suspicion: f64) -> Vec<Judgeme
     multiplicity::holm(p)
         .into_iter()
         .map(|p_holm| {
-            let finding = if p_holm <= alpha * WEIGHTS[round] {
-                Finding::Rejected
+            let decision = if p_holm <= alpha * WEIGHTS[round] {
+                Decision::Rejected
             } else if p_holm <= suspicion && !is_last {
-                Finding::Suspect
+                Decision::Suspect
             } else {
-                Finding::Cleared
+                Decision::Cleared
             };
-            Judgement { p_holm, finding }
+            Judgement { p_holm, decision }
         })
         .collect()
 }

@@ -5,19 +5,19 @@ use hashed_alpha::stats::sequential::*;
 use hashed_alpha::stats::{binomial, normal};
 use rand::Rng;
 
-fn findings(p: &[f64], round: usize) -> Vec<Finding> {
-    judge(p, round, 1e-6, 1e-2).iter().map(|judgement| judgement.finding).collect()
+fn decisions(p: &[f64], round: usize) -> Vec<Decision> {
+    judge(p, round, 1e-6, 1e-2).iter().map(|judgement| judgement.decision).collect()
 }
 
 #[test]
 fn a_round_rejects_suspects_and_clears() {
-    use Finding::{Cleared, Rejected, Suspect};
+    use Decision::{Cleared, Rejected, Suspect};
     let p = [1e-7, 0.5, 1e-3, 2e-7];
-    assert_eq!(findings(&p, 0), [Rejected, Cleared, Suspect, Suspect]);
-    assert_eq!(findings(&p[2..], 1), [Suspect, Suspect]);
-    assert_eq!(findings(&p[2..], 2), [Cleared, Cleared]);
+    assert_eq!(decisions(&p, 0), [Rejected, Cleared, Suspect, Suspect]);
+    assert_eq!(decisions(&p[2..], 1), [Suspect, Suspect]);
+    assert_eq!(decisions(&p[2..], 2), [Cleared, Cleared]);
     assert_eq!(judge(&p, 0, 1e-6, 1e-2)[3].p_holm, 3.0 * 2e-7);
-    assert!(findings(&[], 1).is_empty());
+    assert!(decisions(&[], 1).is_empty());
 }
 
 #[test]
@@ -37,9 +37,9 @@ fn rejected(
         let p: Vec<f64> = open.iter().map(|&i| data(i, round)).collect();
         let judged = judge(&p, round, alpha, suspicion);
         let those =
-            |finding| open.iter().zip(&judged).filter(move |(_, j)| j.finding == finding).map(|(&i, _)| i);
-        rejected.extend(those(Finding::Rejected));
-        open = those(Finding::Suspect).collect();
+            |finding| open.iter().zip(&judged).filter(move |(_, j)| j.decision == finding).map(|(&i, _)| i);
+        rejected.extend(those(Decision::Rejected));
+        open = those(Decision::Suspect).collect();
     }
     rejected
 }
