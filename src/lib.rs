@@ -38,7 +38,6 @@
 //! | feature | brings | by default |
 //! |---|---|---|
 //! | `threads` | batches on all cores | through `cli` |
-//! | `rand` | stochastic thresholds, from any generator of the crate `rand` | through `cli` |
 //! | `check` | claims, subjects, runs; statistics, techniques, costs | through `cli` |
 //! | `shader` | shader text in six languages, a reader and an interpreter of shaders | through `cli` |
 //! | `gpu` | shaders on a device | yes |
