@@ -8,21 +8,20 @@
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use hashed_alpha::cost::techniques::{take, without};
-use hashed_alpha::render::draw::adjust::textures;
 use hashed_alpha::render::draw::fragments::Space;
 use hashed_alpha::render::draw::fragments::{Fragments, Needs};
 use hashed_alpha::render::draw::frame::frame;
-use hashed_alpha::render::draw::plan::plan;
 use hashed_alpha::render::draw::rasterise::{Screen, TILE};
 use hashed_alpha::render::draw::shot::shots;
 use hashed_alpha::render::draw::texture::{Access, Texture};
 use hashed_alpha::render::effect::Effects;
+use hashed_alpha::render::effect::plan::plan;
+use hashed_alpha::render::effect::techniques;
 use hashed_alpha::render::gallery;
 use hashed_alpha::render::measure::picture::{LEAF, Picture, SKY};
 use hashed_alpha::render::scene_file::load::{Scene, prepare};
 use hashed_alpha::render::scene_file::read;
 use hashed_alpha::render::scene_file::schema::{SceneFile, Takes};
-use hashed_alpha::technique::{ALL, TRUTH};
 use hashed_alpha::threshold::batch::Batch;
 use hashed_alpha::threshold::cdf::CdfForm;
 use hashed_alpha::threshold::hash::HashKind;
@@ -58,7 +57,7 @@ fn frames(criterion: &mut Criterion) {
     for (name, tables) in TAKES {
         let effects: Effects = toml::from_str(tables).expect("known effects");
         let plan = plan(&effects);
-        let textures = textures(&scene, plan.textures);
+        let textures = scene.textures(&plan.setup.textures);
         group.bench_function(name, |bencher| {
             bencher.iter(|| black_box(frame(&scene, &textures, &plan, &shot, 0)));
         });
@@ -69,13 +68,14 @@ fn frames(criterion: &mut Criterion) {
 fn effects(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("effects");
     group.sample_size(10).warm_up_time(Duration::from_millis(200)).measurement_time(Duration::from_secs(1));
-    for technique in ALL.iter().filter(|technique| technique.price != TRUTH) {
-        let (file, set) = take(technique.scene, technique.take).expect("in the gallery");
-        for (name, set) in [("with", set.clone()), ("without", without(&set, technique.price))] {
+    for (effect, technique) in techniques() {
+        let [scene, name] = technique.shown;
+        let (file, set) = take(scene, name).expect("in the gallery");
+        for (name, set) in [("with", set.clone()), ("without", without(&set, effect))] {
             let file = SceneFile { effects: Takes::Sets(vec![set.clone()]), ..file.clone() };
             let scene = prepare(file, Path::new("")).expect("built-in textures");
             let plan = plan(&set);
-            let textures = textures(&scene, plan.textures);
+            let textures = scene.textures(&plan.setup.textures);
             let shot = shots(&scene)[0];
             group.bench_function(format!("{}/{name}", technique.name), |bencher| {
                 bencher.iter(|| black_box(frame(&scene, &textures, &plan, &shot, 0)));
@@ -155,7 +155,7 @@ fn absent(criterion: &mut Criterion) {
     group.sample_size(10);
     for (name, tables, hashed) in [("plain", "", None), ("hashed", "hashed = {}", Some(&listing))] {
         let plan = plan(&toml::from_str(tables).expect("known effects"));
-        let textures = textures(&scene, plan.textures);
+        let textures = scene.textures(&plan.setup.textures);
         let planned = || frame(&scene, &textures, &plan, &shot, 0);
         let by_hand = || by_hand(&scene, &textures, hashed);
         assert_eq!(planned().picture, by_hand(), "the two draw the same");

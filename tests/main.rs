@@ -35,6 +35,8 @@ mod shader_parity;
 mod shader_text;
 
 #[cfg(feature = "render")]
+mod extension_effects;
+#[cfg(feature = "render")]
 mod render;
 #[cfg(feature = "render")]
 mod render_assets;

@@ -1,11 +1,11 @@
 //! Scenes: the gallery shows what it must, plans cost what they predict, and an absent table leaves no trace.
 
-use hashed_alpha::render::draw::adjust::textures;
-use hashed_alpha::render::draw::plan::{Census, Plan, plan};
-use hashed_alpha::render::effect;
-use hashed_alpha::render::effect::stage::hashes;
+use hashed_alpha::render::draw::cost::Census;
+use hashed_alpha::render::draw::plan::Plan;
+use hashed_alpha::render::effect::plan::{check, plan};
 use hashed_alpha::render::effect::{ALL, Effects};
 use hashed_alpha::render::gallery::GALLERY;
+use hashed_alpha::render::measure::predict::predict;
 use hashed_alpha::render::measure::study::{Study, study};
 use hashed_alpha::render::scene_file::load::{Scene, prepare};
 use hashed_alpha::render::scene_file::read;
@@ -89,7 +89,7 @@ fn takes() -> Vec<(SceneFile, Effects)> {
     ] {
         let file = small("vanishing-foliage");
         let set: Effects = toml::from_str(table).expect("known effects");
-        assert_eq!(effect::check(&set), Ok(()), "{table}");
+        assert_eq!(check(&set), Ok(()), "{table}");
         takes.push((file, set));
     }
     takes
@@ -173,7 +173,8 @@ fn plans_cost_what_they_predict() {
         let scene = with(&file, effects);
         let study = drawn(&scene);
         for take in &study.takes {
-            let predicted = take.plan.predict(&scene, &textures(&scene, take.plan.textures), &mut || ());
+            let predicted =
+                predict(&take.plan, &scene, &scene.textures(&take.plan.setup.textures), &mut || ());
             assert_eq!(take.cost, predicted, "{}: {}", file.name, take.plan.name);
         }
     }
@@ -181,12 +182,15 @@ fn plans_cost_what_they_predict() {
     let scene = ready(small("auto"));
     let study = drawn(&scene);
     let take = &study.takes[0];
-    assert_eq!(take.cost, take.plan.predict(&scene, &textures(&scene, take.plan.textures), &mut || ()));
+    assert_eq!(
+        take.cost,
+        predict(&take.plan, &scene, &scene.textures(&take.plan.setup.textures), &mut || ())
+    );
 }
 
 /// What a table leaves behind in a plan: stages by the effect that they simulate.
 fn traces(plan: &Plan, effect: &str) -> usize {
-    plan.stages.iter().filter(|stage| stage.effect() == Some(effect)).count()
+    plan.told().filter(|told| told.effect == Some(effect)).count()
 }
 
 #[test]
@@ -194,17 +198,17 @@ fn an_absent_table_leaves_no_trace() {
     let mut removed = 0;
     for (file, set) in takes() {
         let whole = plan(&set);
-        for known in ALL.iter().filter(|known| (known.is_in)(&set)) {
+        for known in ALL.iter().filter(|known| known.is_in(&set)) {
             let mut rest = set.clone();
             (known.remove)(&mut rest);
-            if effect::check(&rest).is_err() {
+            if check(&rest).is_err() {
                 // Something else needs it.
                 continue;
             }
             removed += 1;
             let without = plan(&rest);
             assert_eq!(traces(&without, known.name), 0, "{}: {}", file.name, known.name);
-            let names = |plan: &Plan| plan.needs.names();
+            let names = |plan: &Plan| plan.setup.needs.names();
             // Who reads the finest level alone needs no derivatives to choose one.
             let spares = known.name == "finest_level";
             assert!(
@@ -212,13 +216,13 @@ fn an_absent_table_leaves_no_trace() {
                 "{}",
                 known.name
             );
-            let census = Census { fragments: 1000, texels: 8000, pixels: 100, shown: 90 };
+            let census =
+                Census { fragments: 1000, texels: 8000, pixels: 100, shown: 90, ..Census::default() };
             let costs = |plan: &Plan| plan.cost_of_frame(census).quantities();
             let cheaper = costs(&without).into_iter().zip(costs(&whole)).all(|(less, more)| less.1 <= more.1);
             // Who blends everything spares the test.
             assert!(cheaper || known.name == "naive_blend", "{}: {}", file.name, known.name);
-            let (with, without) = (whole.shader().expect("sound"), without.shader().expect("sound"));
-            if let (Some(with), Some(without)) = (with, without) {
+            if let (Ok(with), Ok(without)) = (whole.shader(), without.shader()) {
                 let chunks = |text: &str| text.matches("\nfn ").count();
                 assert!(chunks(&without) <= chunks(&with), "{}: {}", file.name, known.name);
             }
@@ -307,7 +311,7 @@ fn a_still_scene_keeps_its_samples_unless_its_thresholds_change() {
 fn shader_text_has_the_chunks_of_its_stages_only() {
     let of = |text: &str| {
         let set: Effects = toml::from_str(text).expect("known effects");
-        plan(&set).shader().expect("sound").expect("a shader")
+        plan(&set).shader().expect("a shader")
     };
     for (with, chunk, without) in [
         ("hashed = {}\nfade_in = {}", "fn fade_in", "hashed = {}"),
@@ -371,7 +375,7 @@ fn a_threshold_takes_as_many_hashes_as_its_plan_says() {
         let form = CdfForm::Literal;
         let _ = HashedAlpha { variant, hash, hash_scale: 1.0, form }.threshold(&footprint);
         let model = Model::Hashed(HashedAlpha { variant, hash: HashKind::Mm4, hash_scale: 1.0, form });
-        assert_eq!(count.load(Ordering::Relaxed), hashes(&model), "{variant}");
+        assert_eq!(count.load(Ordering::Relaxed), model.hashes(), "{variant}");
     }
     for variant in [Variant::Isotropic, Variant::Anisotropic] {
         for join in Join::ALL {
@@ -384,7 +388,7 @@ fn a_threshold_takes_as_many_hashes_as_its_plan_says() {
             // Beside what it chooses from, the dithered join hashes both corners for the trace.
             let traced = if join == Join::Dithered { 2 } else { 0 };
             let counted = count.load(Ordering::Relaxed) - traced;
-            assert_eq!(counted, hashes(&Model::Robust(preset)), "{variant} {join}");
+            assert_eq!(counted, Model::Robust(preset).hashes(), "{variant} {join}");
         }
     }
 }
@@ -470,6 +474,7 @@ fn table(name: &str, words: [u32; 3]) -> String {
                 words[2].is_multiple_of(2)
             )
         }
+        "sharpened" => format!("cutoff = {}", share(words[0])),
         "conservative" => format!("corrected = {}", words[0].is_multiple_of(2)),
         "foveated" => format!("gaze = [5.0, 9.0], radius = 3.0, slope = {}", share(words[0])),
         "occlusion" => {
@@ -495,11 +500,11 @@ fn chosen(present: u64, order: u64, words: [u32; 3]) -> Effects {
         }
         let text: String = ALL
             .iter()
-            .filter(|other| other.name == known.name || (other.is_in)(&set))
+            .filter(|other| other.name == known.name || other.is_in(&set))
             .map(|other| table(other.name, words))
             .collect();
         let more: Effects = toml::from_str(&text).expect("known effects");
-        if effect::check(&more).is_ok() {
+        if check(&more).is_ok() {
             set = more;
         }
     }
@@ -523,7 +528,7 @@ proptest! {
             // A single pixel would be 4e-3; averages round.
             let coverage = take.metrics["coverage"];
             prop_assert!((coverage - alpha).abs() < 1e-5, "{coverage} for {alpha}: {}", take.plan.name);
-            let predicted = take.plan.predict(&scene, &textures(&scene, take.plan.textures), &mut || ());
+            let predicted = predict(&take.plan, &scene, &scene.textures(&take.plan.setup.textures), &mut || ());
             prop_assert_eq!(take.cost, predicted, "{}", take.plan.name);
         }
     }
@@ -537,10 +542,10 @@ fn combinations_of_effects_have_every_effect_beside_every_other_that_it_goes_wit
     let sets: Vec<Effects> =
         (0..600).map(|_| chosen(rng.next_u64(), rng.next_u64(), [0; 3].map(|_| rng.next_u32()))).collect();
     for known in ALL {
-        assert!(sets.iter().any(|set| (known.is_in)(set)), "{}", known.name);
+        assert!(sets.iter().any(|set| known.is_in(set)), "{}", known.name);
     }
     let pairs = ALL.iter().flat_map(|a| ALL.iter().map(move |b| (a, b)));
-    let met = pairs.filter(|(a, b)| sets.iter().any(|set| (a.is_in)(set) && (b.is_in)(set))).count();
+    let met = pairs.filter(|(a, b)| sets.iter().any(|set| a.is_in(set) && b.is_in(set))).count();
     assert!(met > ALL.len() * ALL.len() / 2, "{met}");
 }
 
@@ -568,7 +573,7 @@ fn a_scene_that_calls_for_nothing_gets_the_plain_alpha_test() {
         );
         drawn(&ready(read::read(&text, "card.toml").expect("sound"))).takes[0].plan.clone()
     };
-    assert_eq!(near(0.5).stages, plan(&Effects::default()).stages);
+    assert_eq!(near(0.5).setup, plan(&Effects::default()).setup);
     assert_eq!(traces(&near(40.0), "robust"), 1);
 }
 
@@ -592,9 +597,9 @@ fn a_cycle_of_frames_closes() {
             let scene = still(&effects);
             let Takes::Sets(sets) = &scene.file.effects else { panic!("a set was given") };
             let plan = plan(&sets[0]);
-            assert_eq!(plan.cycle(), cycle, "{effects}");
-            assert!(plan.needs.names().contains(&"place of the pixel, for the threshold"));
-            let textures = textures(&scene, plan.textures);
+            assert_eq!(plan.setup.pipeline.and_then(|pipeline| pipeline.cycle()), cycle, "{effects}");
+            assert!(plan.setup.needs.names().contains(&"place of the pixel, for the threshold"));
+            let textures = scene.textures(&plan.setup.textures);
             let shot = hashed_alpha::render::draw::shot::shots(&scene)[0];
             let picture = |index: u32| {
                 hashed_alpha::render::draw::frame::frame(&scene, &textures, &plan, &shot, index).picture

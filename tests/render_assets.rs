@@ -1,5 +1,6 @@
 //! A user's own images and meshes either work or are refused with a message that names the file and the reason.
 
+use hashed_alpha::render::draw::texture::TextureNeeds;
 use hashed_alpha::render::scene_file::load::{Scene, prepare};
 use hashed_alpha::render::scene_file::read;
 use image::{DynamicImage, GrayImage, RgbImage, RgbaImage};
@@ -43,15 +44,18 @@ fn images_of_every_kind_are_read() {
     );
     for name in ["large.png", "deep.png", "wide.png", "grey-alpha.png"] {
         let scene = with_image(folder.path(), name, "alpha").unwrap_or_else(|error| panic!("{error}"));
-        let texture = &scene.textures(false)[0];
-        assert!((texture.levels[0].mean_alpha() - 0.2).abs() < 1e-4, "{name}");
+        let texture = &scene.textures(&TextureNeeds::default())[0];
+        assert!((texture.levels[0].alphas().mean() - 0.2).abs() < 1e-4, "{name}");
         assert_eq!(texture.levels.last().expect("a level").size, [1, 1]);
     }
     save("grey.png", GrayImage::from_pixel(3, 5, image::Luma([51])).into());
     save("colour.jpg", RgbImage::from_pixel(16, 16, image::Rgb([51, 51, 51])).into());
     for name in ["grey.png", "colour.jpg"] {
         let scene = with_image(folder.path(), name, "luminance").unwrap_or_else(|error| panic!("{error}"));
-        assert!((scene.textures(false)[0].levels[0].mean_alpha() - 0.2).abs() < 0.01, "{name}");
+        assert!(
+            (scene.textures(&TextureNeeds::default())[0].levels[0].alphas().mean() - 0.2).abs() < 0.01,
+            "{name}"
+        );
     }
     let mut palette = Vec::new();
     let mut encoder = png::Encoder::new(&mut palette, 2, 1);
@@ -62,7 +66,7 @@ fn images_of_every_kind_are_read() {
     encoder.write_header().expect("a header").write_image_data(&[0, 1]).expect("pixels");
     fs::write(folder.path().join("palette.png"), palette).expect("written");
     let scene = with_image(folder.path(), "palette.png", "alpha").unwrap_or_else(|error| panic!("{error}"));
-    assert_eq!(scene.textures(false)[0].levels[0].alpha, [0.0, 0.4]);
+    assert_eq!(scene.textures(&TextureNeeds::default())[0].levels[0].alpha, [0.0, 0.4]);
 }
 
 #[test]
@@ -186,13 +190,20 @@ fn meshes_are_read_embedded_external_and_binary() {
         assert_eq!(scene.mesh.triangles.len(), 1, "{name}");
         // Moved by its node, scaled by the scene.
         assert_eq!(scene.mesh.vertices[1].object, glam::dvec3(4.0, 0.0, 0.0), "{name}");
-        assert!((scene.textures(false)[0].levels[0].mean_alpha() - alpha).abs() < 1e-6, "{name}");
+        assert!(
+            (scene.textures(&TextureNeeds::default())[0].levels[0].alphas().mean() - alpha).abs() < 1e-6,
+            "{name}"
+        );
     }
     // A texture of the scene in place of its own, which may then be missing.
     fs::write(place("untextured.gltf"), gltf(external, "gone.png", INDEXED)).expect("written");
     let texture = "[[texture]]\nname = 't'\nconstant = { alpha = 0.25 }";
     let scene = scene(folder.path(), texture, "texture = 't'\nmesh = { file = 'untextured.gltf' }");
-    assert_eq!(scene.unwrap_or_else(|error| panic!("{error}")).textures(false)[0].levels[0].alpha[0], 0.25);
+    assert_eq!(
+        scene.unwrap_or_else(|error| panic!("{error}")).textures(&TextureNeeds::default())[0].levels[0].alpha
+            [0],
+        0.25
+    );
 }
 
 #[test]

@@ -98,7 +98,7 @@ fn the_page_has_every_effect_and_its_keys() {
         let refusal = refused::<Effects>(&format!("[{}]\nnonesuch = 1", known.name));
         wanted.extend(keys(&refusal).into_iter().map(|key| format!("{}.{key}", known.name)));
         let row = PAGE.lines().find(|line| line.starts_with(&format!("| `{}` |", known.name)));
-        assert!(row.is_some_and(|row| row.contains(known.citation)), "{}: {row:?}", known.name);
+        assert!(row.is_some_and(|row| row.contains(known.about.citation)), "{}: {row:?}", known.name);
     }
     let found = rows(PAGE, "The effects of a take");
     assert_eq!(differences(&found, &wanted), Vec::<String>::new());

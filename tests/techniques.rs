@@ -1,18 +1,117 @@
 //! Every technique that the sources name is shown by a take of the gallery, tested, and priced.
 
 use hashed_alpha::cost::Effort;
-use hashed_alpha::cost::techniques::{take, techniques, without};
-use hashed_alpha::render::draw::adjust::textures;
-use hashed_alpha::render::draw::plan::plan;
-use hashed_alpha::render::effect;
-use hashed_alpha::render::effect::Effects;
+use hashed_alpha::cost::techniques::{all, take, techniques, without};
+use hashed_alpha::render::effect::kind::Technique;
+use hashed_alpha::render::effect::plan::plan;
+use hashed_alpha::render::effect::{ALL, Effects, Known};
+use hashed_alpha::render::measure::predict::predict;
 use hashed_alpha::render::measure::study::study;
 use hashed_alpha::render::scene_file::load::prepare;
 use hashed_alpha::render::scene_file::schema::{SceneFile, Takes};
-use hashed_alpha::technique::{ALL, TRUTH, Technique};
-use std::collections::HashSet;
+use std::collections::{BTreeSet, HashSet};
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+
+/// Every technique of the sources: the module that computes it, and the test of what its source says of it, a test function
+/// or a row of the page of sentences.
+const TESTED: &[(&str, &str, &str)] = &[
+    (
+        "sharpened-alpha-to-coverage",
+        "render::effect::sharpened",
+        "a_linear_edge_becomes_one_pixel_wide_whatever_its_slope",
+    ),
+    ("fixed", "threshold::fixed", "problem.passing"),
+    ("level-threshold", "technique::prior_work::level_threshold", "the_share_of_passing_texels_is_kept"),
+    (
+        "scaled-alpha",
+        "technique::prior_work::scaled_alpha",
+        "scaled_alphas_pass_as_under_the_threshold_of_their_level",
+    ),
+    (
+        "texel-threshold",
+        "technique::prior_work::level_threshold",
+        "a_factor_for_each_texel_passes_as_the_threshold_of_each_texel",
+    ),
+    (
+        "finest-level",
+        "technique::prior_work::finest_level",
+        "the_finest_level_keeps_the_share_of_passing_texels",
+    ),
+    ("limited-level", "technique::prior_work::finest_level", "levels_up_to_the_limit_are_read_as_they_are"),
+    (
+        "naive-blend",
+        "technique::prior_work::test_then_blend",
+        "naive_blending_hides_an_opaque_fragment_behind_a_transparent_one",
+    ),
+    (
+        "test-then-blend",
+        "technique::prior_work::test_then_blend",
+        "after_an_alpha_test_the_order_of_an_opaque_fragment_is_of_no_account",
+    ),
+    (
+        "supersampling",
+        "technique::prior_work::supersampling",
+        "enough_samples_of_binary_alpha_are_the_filtered_alpha",
+    ),
+    ("sorted-blend", "technique::prior_work::test_then_blend", "the_truth_moves_as_the_takes_do"),
+    ("stochastic", "threshold::stochastic", "expected_visibility_is_alpha"),
+    ("stochastic-transparency", "threshold::stochastic", "transparency.converges"),
+    ("single-scale", "threshold::two_scale::single", "zoom.single"),
+    ("linear-scales", "threshold::two_scale::linear", "zoom.linear"),
+    ("hashed-isotropic", "threshold::two_scale::isotropic", "results.stability"),
+    ("hashed-anisotropic", "threshold::two_scale::anisotropic", "grazing.elongated"),
+    ("robust", "threshold::robust", "no_derivative_at_all_still_gives_a_threshold"),
+    ("fade-in", "threshold::stage::fade_in", "the_ramp_is_quadratic_between_its_ends"),
+    ("anisotropy-factor", "threshold::stage::fade_in", "fade.anisotropy"),
+    ("blend-towards", "threshold::stage::fade_in", "without_noise_the_authored_threshold_decides"),
+    (
+        "noise-scale",
+        "technique::noise_scale",
+        "eight_samples_meet_eight_cells_of_one_octave_at_the_ends_only",
+    ),
+    ("independent-hashes", "threshold::stage::independent", "frames_do_not_correlate_in_a_cell"),
+    ("frame-word", "threshold::stage::independent", "frame_0_is_the_hash_itself_and_the_sine_sees_no_frame"),
+    ("stratified-frames", "threshold::stage::stratify", "temporal.ascending"),
+    ("alternating-order", "threshold::stage::order", "the_orders_flicker_as_ranked"),
+    ("van-der-corput", "threshold::stage::order", "temporal.van_der_corput"),
+    (
+        "phase-rotated",
+        "threshold::stage::order",
+        "only_the_phase_rotated_orders_alternate_for_every_hash_value",
+    ),
+    ("camera-jitter", "technique::jitter", "eight_frames_spread_over_the_pixel"),
+    ("temporal-antialiasing", "technique::history", "what_vanished_is_forgotten_in_the_time_said"),
+    ("reprojected-history", "technique::history", "surfaces_are_found_where_they_were"),
+    ("premultiplied-alpha", "technique::premultiplied", "a_halo_appears_without_premultiplied_alpha_only"),
+    (
+        "multisampling",
+        "technique::multisampling",
+        "triangles_that_share_edges_share_no_sample_and_cover_what_finer_pixels_do",
+    ),
+    ("alpha-to-coverage", "threshold::stage::mask", "coverage.fixed_layers"),
+    (
+        "hardware-alpha-to-coverage",
+        "threshold::stage::mask",
+        "a_single_layer_covers_alpha_but_for_what_rounding_takes",
+    ),
+    ("jittered-alpha-to-coverage", "threshold::stage::mask", "coverage.jittered"),
+    ("permuted-alpha-to-coverage", "threshold::stage::mask", "only_masks_of_their_own_make_layers_multiply"),
+    ("random-masks", "threshold::stage::mask", "random_sets_are_evenly_drawn"),
+    ("pixel-masks", "threshold::stage::mask", "pixels_get_patterns_of_their_own"),
+    ("screen-door", "threshold::stage::screen_door", "screen_door.masks"),
+    (
+        "random-screen-door",
+        "threshold::stage::screen_door",
+        "fixed_and_random_masks_repeat_from_tile_to_tile",
+    ),
+    ("hashed-screen-door", "threshold::stage::screen_door", "only_tiles_of_their_own_make_layers_multiply"),
+    ("stipple", "threshold::stage::stipple", "stipple.one_layer"),
+    ("conservative", "technique::conservative", "corrected_thresholds_keep_the_area_of_cards_below_a_pixel"),
+    ("hashed-occlusion", "technique::occlusion", "one_ray_a_pixel_gives_the_occlusion_in_the_mean"),
+    ("hash-seeded-generator", "technique::occlusion", "a_cell_seeds_one_stream"),
+    ("foveated", "technique::foveated", "the_periphery_loses_its_foliage_under_a_fixed_test_only"),
+];
 
 /// The names of all test functions and of the rows of the page of claims.
 fn tests() -> HashSet<String> {
@@ -38,47 +137,70 @@ fn tests() -> HashSet<String> {
     names
 }
 
-/// What an entry lacks, if anything.
-fn missing(technique: &Technique, tests: &HashSet<String>) -> Option<String> {
-    let Some((file, set)) = take(technique.scene, technique.take) else {
-        return Some(format!("no take `{}` in the scene `{}`", technique.take, technique.scene));
+fn file(module: &str) -> Option<PathBuf> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("src").join(module.replace("::", "/"));
+    [path.with_extension("rs"), path.join("mod.rs")].into_iter().find(|path| path.is_file())
+}
+
+/// What a technique lacks, if anything.
+fn missing(effect: Option<&Known>, technique: &Technique) -> Option<String> {
+    let [scene, name] = technique.shown;
+    let Some((file, set)) = take(scene, name) else {
+        return Some(format!("no take `{name}` in the scene `{scene}`"));
     };
-    let module = Path::new(env!("CARGO_MANIFEST_DIR")).join("src").join(technique.module.replace("::", "/"));
-    if !module.with_extension("rs").is_file() && !module.join("mod.rs").is_file() {
-        return Some(format!("no module `{}`", technique.module));
+    if !TESTED.iter().any(|(tested, ..)| *tested == technique.name) {
+        return Some("no test".to_owned());
     }
-    if !tests.contains(technique.test) {
-        return Some(format!("no test `{}`", technique.test));
-    }
-    let priced = match technique.price {
-        TRUTH => file.truth.is_some(),
-        table => effect::ALL.iter().any(|known| known.name == table && (known.is_in)(&set)),
-    };
-    (!priced).then(|| format!("no table `{}` in its take", technique.price))
+    let has = effect.map_or(file.truth.is_some(), |effect| effect.is_in(&set));
+    (!has).then(|| "not in its take".to_owned())
 }
 
 #[test]
 fn every_technique_has_a_scene_a_test_and_a_price() {
-    let tests = tests();
     let lacking: Vec<(&str, String)> =
-        ALL.iter().filter_map(|technique| Some((technique.name, missing(technique, &tests)?))).collect();
+        all().filter_map(|(effect, technique)| Some((technique.name, missing(effect, technique)?))).collect();
     assert!(lacking.is_empty(), "{lacking:#?}");
+    let shown: BTreeSet<&str> = all().map(|(_, technique)| technique.name).collect();
+    let tested: BTreeSet<&str> = TESTED.iter().map(|(name, ..)| *name).collect();
+    assert_eq!(shown, tested);
+    assert_eq!((shown.len(), TESTED.len()), (all().count(), shown.len()));
+    let tests = tests();
+    for (name, module, test) in TESTED {
+        assert!(file(module).is_some(), "{name}: no module {module}");
+        assert!(tests.contains(*test), "{name}: no test {test}");
+    }
+    for (_, technique) in all() {
+        assert!(technique.name.bytes().all(|b| b.is_ascii_lowercase() || b == b'-'), "{technique:?}");
+        assert!(!technique.source.is_empty() && technique.claim.ends_with('.'), "{technique:?}");
+    }
+}
+
+#[test]
+fn every_file_of_the_wing_is_the_module_of_a_technique() {
+    let listed: Vec<PathBuf> = TESTED.iter().filter_map(|(_, module, _)| file(module)).collect();
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/technique");
+    for folder in [folder.clone(), folder.join("prior_work")] {
+        for entry in fs::read_dir(folder).expect("the folder exists") {
+            let path = entry.expect("an entry").path();
+            let is_room = path.is_dir() || path.ends_with("mod.rs");
+            assert!(is_room || listed.contains(&path), "{} is not listed", path.display());
+        }
+    }
 }
 
 #[test]
 fn an_entry_that_names_what_does_not_exist_is_found() {
-    let tests = tests();
-    let sound = *ALL.iter().find(|technique| technique.name == "fade-in").expect("in the list");
-    assert_eq!(missing(&sound, &tests), None);
-    for broken in [
-        Technique { scene: "fade-out", ..sound },
-        Technique { take: "faded", ..sound },
-        Technique { module: "threshold::fade_out", ..sound },
-        Technique { test: "it_works", ..sound },
-        Technique { price: "jitter", ..sound },
-        Technique { price: TRUTH, scene: "octaves", take: "linear", ..sound },
+    let (effect, sound) = all().find(|(_, technique)| technique.name == "fade-in").expect("in the list");
+    assert_eq!(missing(effect, sound), None);
+    let other = ALL.iter().find(|known| known.name == "jitter");
+    for (effect, broken) in [
+        (effect, Technique { shown: ["fade-out", sound.shown[1]], ..*sound }),
+        (effect, Technique { shown: [sound.shown[0], "faded"], ..*sound }),
+        (effect, Technique { name: "fade-out", ..*sound }),
+        (other, *sound),
+        (None, Technique { shown: ["octaves", "linear"], ..*sound }),
     ] {
-        assert!(missing(&broken, &tests).is_some(), "{broken:?}");
+        assert!(missing(effect, &broken).is_some(), "{broken:?}");
     }
 }
 
@@ -86,14 +208,15 @@ fn an_entry_that_names_what_does_not_exist_is_found() {
 fn every_technique_is_on_the_price_list() {
     let prices = techniques(Effort::Quick, &|| ());
     let names: Vec<&str> = prices.iter().map(|price| price.technique.name).collect();
-    assert_eq!(names.len(), ALL.len(), "{names:?}");
+    assert_eq!(names.len(), all().count(), "{names:?}");
     for price in prices {
-        assert!(price.with > 0.0 && price.without > 0.0, "{price:?}");
+        assert!(price.with > 0.0 && price.without > 0.0, "{}", price.technique.name);
     }
     // What something else needs is not taken away alone.
     let (_, set) = take("temporal-orders", "ascending, 8").expect("in the gallery");
-    assert_eq!(without(&set, "robust"), Effects::default());
-    assert!(without(&set, "temporal").robust.is_some());
+    let known = |name: &str| ALL.iter().find(|known| known.name == name).expect("an effect");
+    assert_eq!(without(&set, known("robust")), Effects::default());
+    assert!(without(&set, known("temporal")).robust.is_some());
 }
 
 /// Hashed thresholds with alpha-to-coverage and temporal antialiasing, and those that fade in, anisotropic, with temporal
@@ -106,15 +229,15 @@ fn combinations_cost_what_they_predict() {
     ] {
         let (file, set) = take("hair", name).expect("in the gallery");
         for table in tables {
-            let known = effect::ALL.iter().find(|known| known.name == *table).expect("an effect");
-            assert!((known.is_in)(&set), "{name}: {table}");
+            let known = ALL.iter().find(|known| known.name == *table).expect("an effect");
+            assert!(known.is_in(&set), "{name}: {table}");
         }
         let frames = 3.try_into().expect("not zero");
         let sets = Takes::Sets(vec![set.clone()]);
         let file = SceneFile { frames, effects: sets, truth: None, expect: Vec::new(), ..file };
         let scene = prepare(file, Path::new("")).expect("built-in textures");
         let plan = plan(&set);
-        let predicted = plan.predict(&scene, &textures(&scene, plan.textures), &mut || ());
+        let predicted = predict(&plan, &scene, &scene.textures(&plan.setup.textures), &mut || ());
         let counted = study(&scene, &mut |_, _| ()).takes[0].cost;
         assert_eq!(counted, predicted, "{name}");
         let (fragments, pixels) = (counted.fragments, 3 * 96 * 96);

@@ -38,7 +38,9 @@ fn write_list(output: &mut impl Write) -> io::Result<()> {
     for scene in &scenes {
         writeln!(output, "{:width$}  rows  {}", scene.name, scene.description)?;
     }
-    drawn.iter().try_for_each(|entry| writeln!(output, "{:width$}  file  {}", entry.name, entry.sentence()))
+    drawn
+        .iter()
+        .try_for_each(|scene| writeln!(output, "{:width$}  file  {}", scene.name, gallery::sentence(scene)))
 }
 
 fn write_scene(output: &mut impl Write, scene: Scene, args: &ScenesArgs) -> io::Result<()> {

@@ -1,31 +1,31 @@
 //! What each technique adds to a whole frame of the scene that shows it, and Table 1 over the gallery.
 //!
-//! A row is a technique of [`ALL`]: its take with and without the table that it is priced by, drawn in turns. Nothing is
-//! written by hand: a new technique has a price as soon as it names its scene.
+//! A row is a technique that an effect names: its take with and without the table of that effect, drawn in turns. Nothing is
+//! written by hand: a new technique has a price as soon as its effect names its scene.
 
 use super::Effort;
-use crate::render::draw::adjust::textures;
 use crate::render::draw::reference;
 use crate::render::draw::shot::shots;
-use crate::render::draw::texture::TextureNeeds;
-use crate::render::effect;
-use crate::render::effect::Effects;
+use crate::render::effect::kind::Technique;
+use crate::render::effect::plan::check;
+use crate::render::effect::{BuiltIn, Effects, Known, techniques as of_effects};
 use crate::render::gallery;
 use crate::render::gallery::GALLERY;
 use crate::render::measure::study::study;
 use crate::render::scene_file::load::{Scene, prepare};
 use crate::render::scene_file::read;
 use crate::render::scene_file::schema::{SceneFile, Takes};
-use crate::technique::{ALL, TRUTH, Technique};
 use core::num::NonZeroU32;
 use std::path::Path;
 use std::time::Instant;
 
 /// What a technique costs.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy)]
 pub struct TechniquePrice {
     /// The technique.
     pub technique: &'static Technique,
+    /// The effect that it is the price of; `None` for the reference image.
+    pub effect: Option<&'static Known>,
     /// Nanoseconds a pixel of a frame without its table, or under the plain alpha test where the rest does not stand alone;
     /// the fastest round.
     pub without: f64,
@@ -52,43 +52,52 @@ pub fn take(scene: &str, take: &str) -> Option<(SceneFile, Effects)> {
     Some((file, set))
 }
 
-/// Returns a set of effects without one table; the plain alpha test where something else needs it.
+/// Returns a set of effects without one of them; the plain alpha test where something else needs it.
 #[must_use]
-pub fn without(set: &Effects, table: &str) -> Effects {
+pub fn without(set: &Effects, effect: &Known) -> Effects {
     let mut rest = set.clone();
-    effect::ALL.iter().filter(|known| known.name == table).for_each(|known| (known.remove)(&mut rest));
-    if effect::check(&rest).is_ok() { rest } else { Effects::default() }
+    (effect.remove)(&mut rest);
+    if check(&rest).is_ok() { rest } else { Effects::default() }
+}
+
+/// Returns every technique that the sources name, with the effect that it is the price of; `None` for the reference image.
+pub fn all() -> impl Iterator<Item = (Option<&'static Known>, &'static Technique)> {
+    of_effects().map(|(known, technique)| (Some(known), technique)).chain([(None, &reference::TECHNIQUE)])
 }
 
 /// How many steps [`techniques`] and [`frames`] report together.
 #[must_use]
 pub fn steps() -> u64 {
-    (ALL.len() + GALLERY.len()) as u64
+    (all().count() + GALLERY.len()) as u64
 }
 
 /// Measures every technique; `done` is called after each.
 #[must_use]
 pub fn techniques(effort: Effort, done: &dyn Fn()) -> Vec<TechniquePrice> {
-    let price = |technique: &'static Technique| {
-        let (file, set) = take(technique.scene, technique.take)?;
-        let [with, without] = if technique.price == TRUTH {
-            let plain = of_sets(&file, vec![Effects::default()], effort)?;
-            [of_truth(&file, effort)?, plain[0]]
-        } else {
-            let rest = without(&set, technique.price);
-            <[f64; 2]>::try_from(of_sets(&file, vec![set, rest], effort)?).ok()?
+    let price = |(effect, technique): (Option<&'static Known>, &'static Technique)| {
+        let [scene, name] = technique.shown;
+        let (file, set) = take(scene, name)?;
+        let [with, without] = match effect {
+            None => {
+                let plain = of_sets(&file, vec![Effects::default()], effort)?;
+                [of_reference(&file, effort)?, plain[0]]
+            }
+            Some(effect) => {
+                let rest = without(&set, effect);
+                <[f64; 2]>::try_from(of_sets(&file, vec![set, rest], effort)?).ok()?
+            }
         };
         done();
-        Some(TechniquePrice { technique, without, with })
+        Some(TechniquePrice { technique, effect, without, with })
     };
-    ALL.iter().filter_map(price).collect()
+    all().filter_map(price).collect()
 }
 
 /// Measures the three tests on every scene of the gallery; `done` is called after each.
 #[must_use]
 pub fn frames(effort: Effort, done: &dyn Fn()) -> Vec<FramePrice> {
     let table = |text: &str| toml::from_str::<Effects>(text).ok();
-    let price = |entry: &'static gallery::Entry| {
+    let price = |entry: &'static BuiltIn| {
         let file = read::read(entry.text, entry.name).ok()?;
         let sets = vec![Effects::default(), table("hashed = {}")?, table("stochastic = {}")?];
         let tests = of_sets(&file, sets, effort)?;
@@ -126,10 +135,10 @@ fn of_sets(file: &SceneFile, sets: Vec<Effects>, effort: Effort) -> Option<Vec<f
     Some(fastest)
 }
 
-/// Nanoseconds a pixel of the ground truth, at one place a pixel.
-fn of_truth(file: &SceneFile, effort: Effort) -> Option<f64> {
+/// Nanoseconds a pixel of the reference image, at one place a pixel.
+fn of_reference(file: &SceneFile, effort: Effort) -> Option<f64> {
     let scene = ready(file, vec![Effects::default()], 1)?;
-    let textures = textures(&scene, TextureNeeds { premultiplied: true, ..TextureNeeds::default() });
+    let textures = scene.textures(&reference::texture_needs());
     let shot = *shots(&scene).first()?;
     let round = |_| {
         let begun = Instant::now();

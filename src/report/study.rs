@@ -2,7 +2,7 @@
 
 use crate::render::draw::cost::Cost;
 use crate::render::draw::plan::Plan;
-use crate::render::effect::Effects;
+use crate::render::effect::{ALL, Effects};
 use crate::render::measure::study::{Study, Take};
 use crate::render::scene_file::load::Scene;
 use crate::report::figure::distance::{Kept, Point, distance};
@@ -38,18 +38,18 @@ pub fn write_plans(scene: &Scene, planned: &[Planned], out: &mut impl Write) -> 
         for reason in reasons {
             writeln!(out, "  chosen   {reason}")?;
         }
-        for stage in &plan.stages {
-            writeln!(out, "  runs     {}", stage.describe())?;
+        for told in plan.told() {
+            writeln!(out, "  runs     {}", told.says)?;
         }
-        for need in plan.needs.names() {
+        for need in plan.setup.needs.names() {
             writeln!(out, "  needs    {need}")?;
         }
         writeln!(out, "  costs    {}", quantities(cost))?;
-        let skipped: Vec<&str> = plan.skipped(effects).map(|(known, _)| known.name).collect();
-        writeln!(out, "  runs not {}: the scene has no such tables", skipped.join(", "))?;
+        let skipped = ALL.iter().filter(|known| !known.is_in(effects)).map(|known| known.name);
+        writeln!(out, "  skipped  {} (not in the scene file)", skipped.collect::<Vec<_>>().join(", "))?;
     }
     for (table, what) in [
-        (scene.file.truth.is_some(), "error to the truth: no table [truth]"),
+        (scene.file.truth.is_some(), "error to the reference image: no table [truth]"),
         (scene.file.distance.is_some(), "coverage against distance: no table [distance]"),
         (scene.file.layers.is_some(), "correlation of layers: no table [layers]"),
         (scene.file.camera.motion.is_some(), "flips by cause: no table [camera.motion]"),
@@ -211,12 +211,12 @@ struct Expected<'a> {
 /// What the encoder says.
 pub fn json(scene: &Scene, study: &Study) -> serde_json::Result<String> {
     let take = |take: &'_ Take| -> (Vec<String>, BTreeMap<&'static str, u64>) {
-        let stages = take.plan.stages.iter().map(|stage| stage.describe()).collect();
+        let stages = take.plan.told().map(|told| told.says.clone()).collect();
         (stages, take.cost.quantities().into_iter().collect())
     };
     let takes = study.takes.iter().map(|one| {
         let (stages, cost) = take(one);
-        One { take: &one.plan.name, stages, needs: one.plan.needs.names(), cost, metrics: &one.metrics }
+        One { take: &one.plan.name, stages, needs: one.plan.setup.needs.names(), cost, metrics: &one.metrics }
     });
     serde_json::to_string_pretty(&Whole {
         schema: SCHEMA,

@@ -106,7 +106,7 @@ pub struct Fragments {
     /// What is hashed; empty unless needed.
     pub footprint: ColumnBuffer<f32>,
     /// Which of the fragments of its pixel it is; empty unless needed.
-    pub layer: Vec<u16>,
+    pub layer: Vec<u32>,
     /// The share of its pixel that its triangle covers, in (0, 1]; empty unless needed.
     pub coverage: Vec<f64>,
     /// The samples of its pixel that its triangle covers, a bit each; empty unless needed.

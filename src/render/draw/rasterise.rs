@@ -116,7 +116,7 @@ impl Screen {
             }
         }
         if self.needs.layer {
-            let mut seen = [0_u16; (TILE * TILE) as usize];
+            let mut seen = [0_u32; (TILE * TILE) as usize];
             out.layer.extend(out.pixel.iter().map(|&pixel| {
                 seen[usize::from(pixel)] += 1;
                 seen[usize::from(pixel)] - 1

@@ -1,63 +1,12 @@
-//! Ambient occlusion with one ray a pixel: where it goes, and whether something is in its way (§9, Fig. 8).
+//! Rays from surfaces, and whether something is in their way (§9, Fig. 8).
 
-use super::cost::Cost;
 use super::mesh::Mesh;
-use crate::render::effect::stage::hashes;
-use crate::render::effect::tables::{Chi, Occlusion};
-use crate::technique::occlusion::{chi_by_offsets, chi_by_two_hashes, chi_by_word, generator, open};
-use crate::threshold::footprint::Footprint;
-use crate::threshold::hash::HashKind;
-use crate::threshold::hashed::HashedAlpha;
-use crate::threshold::robust::Robust;
-use glam::{DVec3, Vec3, vec3};
-use rand::RngExt;
-use rand::rngs::Xoshiro256PlusPlus;
-
-/// The offsets of chi_1 and chi_2 in cells: large and without relation, as §9 asks; the values are ours.
-const OFFSETS: [Vec3; 2] = [vec3(1013.0, -377.0, 2311.0), vec3(-1999.0, 743.0, 89.0)];
+use crate::technique::occlusion::open;
+use glam::DVec3;
 
 /// Rays start this share of their distance to the viewer above the surface, so that it does not hide itself: more than
 /// what an `f32` depth rounds off.
 const LIFT: f64 = 1.0e-5;
-
-/// Returns the two numbers of a ray by a table, each in [0, 1]; NaN where a listing gives none. `rng` is for those that
-/// belong to no place.
-#[must_use]
-pub fn chi(table: &Occlusion, footprint: &Footprint<f32>, rng: &mut Xoshiro256PlusPlus) -> [f64; 2] {
-    let variant = table.variant;
-    let hashed = match table.chi {
-        Chi::TwoHashes => chi_by_two_hashes(variant, footprint),
-        Chi::Offsets => chi_by_offsets(variant, OFFSETS, footprint),
-        Chi::Word => chi_by_word(&Robust::new(variant), footprint).unwrap_or([f32::NAN; 2]),
-        Chi::Seeded => {
-            let mut seeded = generator(&variant.two_scale(footprint, 1.0).floor_cell);
-            return [seeded.random(), seeded.random()];
-        }
-        Chi::Random => return [rng.random(), rng.random()],
-    };
-    hashed.map(f64::from)
-}
-
-/// Returns what so many rays cost.
-#[must_use]
-pub fn cost(table: &Occlusion, rays: u64) -> Cost {
-    let twice = |each: u64| 2 * rays * each;
-    let [hashes, randoms] = match table.chi {
-        Chi::TwoHashes | Chi::Offsets => {
-            [twice(hashes(&HashedAlpha { hash: HashKind::Sine, ..named(table) }.into())), 0]
-        }
-        Chi::Word => [twice(hashes(&Robust::new(table.variant).into())), 0],
-        // Two words of the cell.
-        Chi::Seeded => [twice(1), twice(1)],
-        Chi::Random => [0, twice(1)],
-    };
-    Cost { rays, hashes, randoms, ..Cost::default() }
-}
-
-fn named(table: &Occlusion) -> HashedAlpha {
-    let HashedAlpha { hash_scale, form, .. } = HashedAlpha::listing(table.variant);
-    HashedAlpha { variant: table.variant, hash: HashKind::Sine, hash_scale, form }
-}
 
 /// The triangles of a frame in world coordinates, all of them solid: a ray does not test alpha.
 #[derive(Clone, Debug)]
@@ -134,9 +83,9 @@ impl Occluder {
 mod tests {
     use super::*;
     use crate::render::draw::mesh::{Object, Vertex};
-    use crate::threshold::two_scale::Variant;
     use glam::{DAffine3, DVec2, dvec3};
-    use rand::SeedableRng;
+    use rand::rngs::Xoshiro256PlusPlus;
+    use rand::{RngExt, SeedableRng};
 
     /// A floor at y = 0 and a wall at x = 0 of a height, both long.
     fn corner_of(height: f64) -> Occluders {
@@ -180,27 +129,5 @@ mod tests {
         };
         assert!(seen(dvec3(2.0, 5.0, 0.0)).contains(&false));
         assert_eq!(seen(dvec3(2.0, -5.0, 0.0)), [true; 4]);
-    }
-
-    #[test]
-    fn every_way_to_choose_a_ray_gives_numbers_and_says_its_price() {
-        let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
-        let footprint = Footprint {
-            position: vec3(3.1, 1.7, 4.3),
-            dpdx: vec3(0.011, 0.002, 0.004),
-            dpdy: vec3(-0.003, 0.013, 0.001),
-        };
-        for chi_of in Chi::ALL {
-            for variant in [Variant::Isotropic, Variant::Anisotropic] {
-                let table = Occlusion { reach: 1.0, chi: chi_of, variant };
-                let of = |rng: &mut Xoshiro256PlusPlus| chi(&table, &footprint, rng);
-                let (one, two) = (of(&mut rng), of(&mut rng));
-                assert!(one.iter().all(|chi| (0.0..=1.0).contains(chi)) && one[0] != one[1], "{table:?}");
-                assert_eq!(one == two, chi_of != Chi::Random, "{table:?}");
-                let cost = cost(&table, 10);
-                assert_eq!((cost.rays, cost.hashes > 0), (10, chi_of != Chi::Random));
-                assert_eq!(cost.randoms > 0, matches!(chi_of, Chi::Random | Chi::Seeded));
-            }
-        }
     }
 }

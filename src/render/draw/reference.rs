@@ -1,10 +1,11 @@
-//! Ground truth: every fragment blended in the order of its distance, at many places of each pixel.
+//! The reference image: every fragment blended in the order of its distance, at many places of each pixel.
 
 use super::cost::Cost;
 use super::fragments::{Fragments, Needs, Space};
 use super::rasterise::{Screen, TILE};
 use super::shot::Shot;
-use super::texture::Texture;
+use super::texture::{Texture, TextureNeeds};
+use crate::render::effect::kind::Technique;
 use crate::render::measure::picture::{LEAF, Picture, SKY};
 use crate::render::scene_file::load::Scene;
 use glam::DVec2;
@@ -12,6 +13,20 @@ use rayon::prelude::*;
 
 /// Colour and coverage of a pixel.
 type Seen = ([f32; 3], f32);
+
+/// What the sources say of it.
+pub const TECHNIQUE: Technique = Technique {
+    name: "sorted-blend",
+    source: "§4, Fig. 5",
+    claim: "The ground truth to which many stochastic samples converge.",
+    shown: ["samples-converge", "64 samples"],
+};
+
+/// Returns what the reference needs of textures.
+#[must_use]
+pub fn texture_needs() -> TextureNeeds {
+    TextureNeeds { premultiplied: true, ..TextureNeeds::default() }
+}
 
 /// Draws a frame of a shot at `side` x `side` places a pixel; `textures` hold colours multiplied by alpha.
 ///

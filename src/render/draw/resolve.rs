@@ -1,14 +1,14 @@
 //! From fragments to the colours and the coverage of pixels: the nearest that is kept, or a blend of all.
 
-use super::work::{Draw, NONE, PIXELS, TileResult, Work};
+use super::work::{NONE, PIXELS, Shading, TileResult, Work};
 use crate::render::measure::picture::{LEAF, SKY};
 use crate::technique::premultiplied;
 use crate::technique::prior_work::test_then_blend::Layer;
 
-impl Draw<'_> {
+impl Shading<'_> {
     /// Draws what is nearest of the fragments that are kept, at each sample.
-    pub(in crate::render) fn resolve(&self, work: &Work, divide: bool, result: &mut TileResult) {
-        let samples = self.plan.samples as usize;
+    pub(in crate::render) fn resolve(&self, work: &Work, result: &mut TileResult) {
+        let samples = self.setup.samples.get() as usize;
         let mut nearest = vec![NONE; PIXELS * samples];
         for (at, &kept) in work.kept.iter().enumerate() {
             let pixel = usize::from(work.fragments.pixel[at]);
@@ -35,7 +35,7 @@ impl Draw<'_> {
             let mut last = (NONE, [0.0; 3]);
             for &at in held.iter().filter(|&&at| at != NONE) {
                 if at != last.0 {
-                    last = (at, self.colour(work, at as usize, divide));
+                    last = (at, self.colour(work, at as usize));
                 }
                 colour = [0, 1, 2].map(|c| colour[c] + light * last.1[c]);
             }
@@ -51,7 +51,6 @@ impl Draw<'_> {
         drawn: impl Fn(&[Layer], f64) -> f64,
         result: &mut TileResult,
     ) {
-        let divide = self.plan.textures.premultiplied;
         let mut of_pixel: Vec<Vec<usize>> = vec![Vec::new(); PIXELS];
         for at in 0..work.fragments.len() {
             of_pixel[usize::from(work.fragments.pixel[at])].push(at);
@@ -67,17 +66,17 @@ impl Draw<'_> {
             };
             let drawn =
                 |value: &dyn Fn(usize) -> f32, behind: f32| drawn(&layers(value), f64::from(behind)) as f32;
-            result.colour[pixel] = [0, 1, 2].map(|c| drawn(&|at| self.colour(work, at, divide)[c], SKY[c]));
+            result.colour[pixel] = [0, 1, 2].map(|c| drawn(&|at| self.colour(work, at)[c], SKY[c]));
             result.coverage[pixel] = drawn(&|_| 1.0, 0.0);
         }
     }
 
-    fn colour(&self, work: &Work, at: usize, divide: bool) -> [f32; 3] {
+    fn colour(&self, work: &Work, at: usize) -> [f32; 3] {
         let triangle = work.fragments.triangle[at];
         let texture = self.texture(triangle);
         let shade = self.screen.shade(triangle);
         let colour = match texture.colour(&work.access[at]) {
-            Some([r, g, b]) if divide => {
+            Some([r, g, b]) if self.setup.textures.premultiplied => {
                 premultiplied::divide([r, g, b, work.alpha[at]].map(f64::from)).map(|c| c as f32)
             }
             Some(colour) => colour,

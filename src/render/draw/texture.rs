@@ -1,5 +1,6 @@
 //! Textures: an alpha map with its mip chain, the colours that go with it, and how they are filtered.
 
+use crate::technique::prior_work;
 use glam::{Vec2, vec2};
 use serde::Deserialize;
 
@@ -45,7 +46,7 @@ pub struct Level {
 
 /// A texture before its mip chain is built.
 #[derive(Clone, Debug)]
-pub struct Cover {
+pub struct TextureSource {
     /// Its finest level.
     pub finest: Level,
     /// What lies beyond its edge.
@@ -55,24 +56,33 @@ pub struct Cover {
 }
 
 /// What a plan needs of textures.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct TextureNeeds {
-    /// Colours multiplied by alpha.
+    /// Colours multiplied by alpha (§7.3).
     pub premultiplied: bool,
-    /// A threshold for each level.
-    pub thresholds: bool,
-    /// Scaled alphas.
-    pub scaling: Option<Scaling>,
+    /// What is done to them before the first frame, in this order.
+    pub changes: Vec<Change>,
 }
 
-/// How stored alphas are changed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Scaling {
-    /// By a factor a level (Castano 2010).
-    Levels,
-    /// By a factor a texel, from the texels so far around it.
-    Texels(usize),
+/// A change of textures before the first frame; two are the same if they are called so and have one parameter.
+#[derive(Clone, Copy, Debug)]
+pub struct Change {
+    /// What it is called.
+    pub name: &'static str,
+    /// What it depends on.
+    pub parameter: usize,
+    /// Changes a texture by the parameter.
+    pub run: fn(&mut Texture, usize),
 }
+
+impl PartialEq for Change {
+    fn eq(&self, other: &Self) -> bool {
+        (self.name, self.parameter) == (other.name, other.parameter)
+    }
+}
+
+/// The threshold of the finest level, of which changes of the other levels keep the share.
+pub const REFERENCE: f32 = 0.5;
 
 /// A texture with every level down to one texel.
 #[derive(Clone, Debug, PartialEq)]
@@ -103,15 +113,18 @@ pub struct Access {
 impl Texture {
     /// Builds the mip chain of a finest level by area averages, which keep the mean at every size.
     ///
-    /// Colours are averaged as they are, so that those of transparent texels bleed in, or weighted by alpha where
-    /// `premultiplied` (§7.3).
+    /// Colours are averaged as they are, so that those of transparent texels bleed in, or weighted by alpha where they are
+    /// multiplied by it (§7.3).
     #[must_use]
-    pub fn new(finest: Level, wrap: Wrap, filter: Filter, premultiplied: bool) -> Self {
-        let mut levels = vec![if premultiplied { premultiply(finest) } else { finest }];
+    pub fn new(source: &TextureSource, needs: &TextureNeeds) -> Self {
+        let TextureSource { finest, wrap, filter } = source.clone();
+        let mut levels = vec![if needs.premultiplied { premultiply(finest) } else { finest }];
         while let Some(next) = levels.last().and_then(half) {
             levels.push(next);
         }
-        Self { levels, wrap, filter, thresholds: Vec::new() }
+        let mut texture = Self { levels, wrap, filter, thresholds: Vec::new() };
+        needs.changes.iter().for_each(|change| (change.run)(&mut texture, change.parameter));
+        texture
     }
 
     /// Returns where to read for a texture coordinate with its two screen derivatives (texture coordinates per pixel).
@@ -249,16 +262,11 @@ impl Level {
         (y * width + x) as usize
     }
 
-    /// Returns the mean alpha.
+    /// Returns its alphas as prior work sees them.
     #[must_use]
-    pub fn mean_alpha(&self) -> f64 {
-        self.alpha.iter().map(|&alpha| f64::from(alpha)).sum::<f64>() / self.alpha.len() as f64
-    }
-
-    /// Returns the share of texels whose alpha is at least `threshold`.
-    #[must_use]
-    pub fn share_at_least(&self, threshold: f32) -> f64 {
-        self.alpha.iter().filter(|&&alpha| alpha >= threshold).count() as f64 / self.alpha.len() as f64
+    pub fn alphas(&self) -> prior_work::Level<'_> {
+        let [width, height] = self.size.map(|side| side as usize);
+        prior_work::Level { texels: &self.alpha, width, height }
     }
 }
 
@@ -327,15 +335,19 @@ mod tests {
 
     fn texture(size: [u32; 2], filter: Filter) -> Texture {
         let alpha = (0..size[0] * size[1]).map(|i| f32::from((i * 7 % 11) as u8) / 10.0).collect();
-        Texture::new(Level { size, alpha, colour: Vec::new() }, Wrap::Repeat, filter, false)
+        let finest = Level { size, alpha, colour: Vec::new() };
+        Texture::new(&TextureSource { finest, wrap: Wrap::Repeat, filter }, &TextureNeeds::default())
     }
 
     #[test]
     fn every_level_keeps_the_mean_and_the_last_is_one_texel() {
         for size in [[64, 64], [7, 5], [65_535, 1], [1, 3]] {
             let texture = texture(size, Filter::Trilinear);
-            let mean = texture.levels[0].mean_alpha();
-            assert!(texture.levels.iter().all(|level| (level.mean_alpha() - mean).abs() < 1e-6), "{size:?}");
+            let mean = texture.levels[0].alphas().mean();
+            assert!(
+                texture.levels.iter().all(|level| (level.alphas().mean() - mean).abs() < 1e-6),
+                "{size:?}"
+            );
             assert_eq!(texture.levels.last().map(|level| level.size), Some([1, 1]));
         }
     }
@@ -369,8 +381,10 @@ mod tests {
     fn colours_of_transparent_texels_bleed_unless_premultiplied() {
         let finest =
             Level { size: [2, 1], alpha: vec![1.0, 0.0], colour: vec![[0, 60_000, 0], [60_000, 0, 0]] };
-        let straight = Texture::new(finest.clone(), Wrap::Clamp, Filter::Trilinear, false);
-        let multiplied = Texture::new(finest, Wrap::Clamp, Filter::Trilinear, true);
+        let source = TextureSource { finest, wrap: Wrap::Clamp, filter: Filter::Trilinear };
+        let of =
+            |premultiplied| Texture::new(&source, &TextureNeeds { premultiplied, ..TextureNeeds::default() });
+        let (straight, multiplied) = (of(false), of(true));
         assert_eq!(straight.levels[1].colour, [[30_000, 30_000, 0]]);
         assert_eq!(multiplied.levels[1].colour, [[0, 30_000, 0]]);
     }

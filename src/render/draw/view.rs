@@ -19,13 +19,13 @@ pub struct View {
     #[serde(default = "half_height")]
     pub half_height: f64,
     /// How it moves; it stands still without.
-    pub motion: Option<Motion>,
+    pub motion: Option<CameraMotion>,
 }
 
-/// Motion of the camera from frame to frame.
+/// CameraMotion of the camera from frame to frame.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Motion {
+pub struct CameraMotion {
     /// Shift of the image to the right and down, in pixels per frame at the distance of the target.
     pub translate: Option<[f64; 2]>,
     /// Factor by which the target is enlarged, per frame.
@@ -55,7 +55,7 @@ pub enum Cause {
     Rotate,
 }
 
-impl Motion {
+impl CameraMotion {
     /// Returns the motions that it has, each alone.
     #[must_use]
     pub fn causes(&self) -> Vec<Cause> {
@@ -87,7 +87,7 @@ impl View {
     #[must_use]
     pub fn camera(&self, frame: f64, cause: Cause, distance: f64, resolution: [u32; 2]) -> Camera {
         let [eye, target, up] = [self.eye, self.target, self.up].map(DVec3::from);
-        let motion = self.motion.unwrap_or(Motion { translate: None, zoom: None, rotate: None });
+        let motion = self.motion.unwrap_or(CameraMotion { translate: None, zoom: None, rotate: None });
         let moved = |by: Cause| cause == Cause::All || cause == by;
         let zoom = motion.zoom.filter(|_| moved(Cause::Zoom)).unwrap_or(1.0);
         let roll = motion.rotate.filter(|_| moved(Cause::Rotate)).unwrap_or(0.0).to_radians() * frame;
@@ -107,7 +107,7 @@ mod tests {
     use super::*;
     use glam::dvec2;
 
-    fn view(motion: Motion) -> View {
+    fn view(motion: CameraMotion) -> View {
         View {
             eye: [1.0, 2.0, 5.0],
             target: [0.0, 0.5, 0.0],
@@ -119,7 +119,7 @@ mod tests {
 
     #[test]
     fn each_cause_moves_the_image_as_it_says() {
-        let motion = Motion { translate: Some([0.5, -0.25]), zoom: Some(1.1), rotate: Some(2.0) };
+        let motion = CameraMotion { translate: Some([0.5, -0.25]), zoom: Some(1.1), rotate: Some(2.0) };
         let seen =
             |cause, point: DVec3| view(motion).camera(3.0, cause, 1.0, [200, 100]).project(point).unwrap();
         let middle = dvec3_target();

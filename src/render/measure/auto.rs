@@ -3,11 +3,15 @@
 use super::survey::Survey;
 use crate::render::draw::texture::Texture;
 use crate::render::effect::Effects;
-use crate::render::effect::tables::{
-    AlphaToCoverage, Average, FadeIn, Fixed, Pattern, Premultiplied, RobustHash, Temporal,
-};
+use crate::render::effect::alpha_to_coverage::AlphaToCoverage;
+use crate::render::effect::average::Average;
+use crate::render::effect::fade_in::FadeIn;
+use crate::render::effect::fixed::Fixed;
+use crate::render::effect::premultiplied::Premultiplied;
+use crate::render::effect::robust::RobustHash;
+use crate::render::effect::temporal::Temporal;
 use crate::render::scene_file::load::Scene;
-use crate::threshold::hash::HashKind;
+use crate::threshold::stage::coverage::SamplePattern;
 use crate::threshold::stage::order::Order;
 use crate::threshold::two_scale::Variant;
 
@@ -50,7 +54,7 @@ pub fn choose(scene: &Scene, textures: &[Texture]) -> Choice {
     let oblique = survey.share(survey.oblique);
     let variant = if oblique > ENOUGH { Variant::Anisotropic } else { Variant::Isotropic };
     let each = if variant == Variant::Anisotropic { 8 } else { 2 };
-    effects.robust = Some(RobustHash { variant, hash: HashKind::Mm4, hash_scale: 1.0, join: None });
+    effects.robust = Some(RobustHash { variant, ..RobustHash::default() });
     reasons.push(format!(
         "robust, {variant}: the fixed test gains or loses {} of the coverage; {} of the \
              footprints are more than twice as long as wide; costs {each} hashes for each of {} \
@@ -83,9 +87,9 @@ pub fn choose(scene: &Scene, textures: &[Texture]) -> Choice {
     let layered = survey.pixels[1] as f64 / survey.pixels[0].max(1) as f64;
     if target.samples.get() > 1 {
         let (pattern, price) = if layered > ENOUGH {
-            (Pattern::Decorrelated, "1 more hash a fragment")
+            (SamplePattern::Decorrelated, "1 more hash a fragment")
         } else {
-            (Pattern::Jittered, "no more hashes")
+            (SamplePattern::Jittered, "no more hashes")
         };
         effects.alpha_to_coverage = Some(AlphaToCoverage { samples: target.samples, pattern });
         reasons.push(format!(

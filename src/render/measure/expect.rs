@@ -1,8 +1,8 @@
 //! What a scene must show, in a form that a machine checks.
 
-use super::study::Take;
+use super::metrics::Metrics;
+use crate::render::scene_file::diagnostic::{Diagnostic, likely};
 use crate::render::scene_file::schema::Expectation;
-use crate::render::scene_file::suggest::likely;
 
 /// An expectation and what came out.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,34 +18,38 @@ pub struct Checked {
 pub(in crate::render) fn check_words(
     expectation: &Expectation,
     takes: Option<&[String]>,
-) -> Result<(), (&'static str, String)> {
+) -> Result<(), Diagnostic> {
     let Expectation { take, than, at_least, at_most, .. } = expectation;
     let named = [("take", Some(take)), ("than", than.as_ref())];
     for (key, name) in named.into_iter().filter_map(|(key, name)| Some((key, name?))) {
         if let Some(takes) = takes.filter(|takes| !takes.contains(name)) {
             let known: Vec<&str> = takes.iter().map(String::as_str).collect();
             let likely = likely(name, &known);
-            return Err((key, format!("no take is called `{name}`.{likely} Takes are {}", known.join(", "))));
+            let message = format!("no take is called `{name}`.{likely} Takes are {}", known.join(", "));
+            return Err(Diagnostic::new(key, message));
         }
     }
     match (at_least, at_most) {
-        (None, None) => Err(("metric", "there is no bound: add `at_least`, `at_most` or both".to_owned())),
-        (Some(low), Some(high)) if low > high => {
-            Err(("at_least", format!("nothing is at least {low} and at most {high}")))
+        (None, None) => {
+            Err(Diagnostic::new("metric", "there is no bound: add `at_least`, `at_most` or both"))
         }
-        _ => Ok(()),
+        (Some(low), Some(high)) if low > high => {
+            Err(Diagnostic::new("at_least", format!("nothing is at least {low} and at most {high}")))
+        }
+        (Some(_), _) | (_, Some(_)) => Ok(()),
     }
 }
 
-/// Checks an expectation. A take or a number that does not exist fails it.
+/// Checks an expectation against the names of takes and their numbers. A take or a number that does not exist fails it.
 #[must_use]
-pub fn check(expectation: &Expectation, takes: &[Take]) -> Checked {
+pub fn check(expectation: &Expectation, takes: &[(&str, &Metrics)]) -> Checked {
     let Expectation { take, metric, than, at_least, at_most } = expectation;
-    let find = |name: &str| takes.iter().find(|take| take.plan.name == name)?.metrics.get(metric).copied();
+    let metrics = |name: &str| takes.iter().find(|(known, _)| *known == name).map(|(_, metrics)| *metrics);
+    let find = |name: &str| metrics(name)?.get(metric).copied();
     let (Some(found), Some(unit)) = (find(take), than.as_deref().map_or(Some(1.0), find)) else {
-        let known: Vec<&str> = takes.iter().map(|take| take.plan.name.as_str()).collect();
-        let measured = takes.iter().find(|of| of.plan.name == *take).or(takes.first());
-        let numbers = measured.map(|take| take.metrics.keys().cloned().collect::<Vec<_>>().join(", "));
+        let known: Vec<&str> = takes.iter().map(|(name, _)| *name).collect();
+        let measured = metrics(take).or(takes.first().map(|(_, metrics)| *metrics));
+        let numbers = measured.map(|metrics| metrics.keys().cloned().collect::<Vec<_>>().join(", "));
         let text = format!(
             "{take}: {metric} was not measured; takes are {}; numbers are {}",
             known.join(", "),

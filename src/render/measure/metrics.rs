@@ -67,7 +67,7 @@ struct Sums {
     /// Coverage of each region, and that of the truth.
     regions: Vec<[f64; 2]>,
     depth: BTreeMap<&'static str, f64>,
-    truth: Option<TruthSums>,
+    truth: Option<ErrorSums>,
     before: Option<(Vec<f32>, Vec<bool>)>,
     /// Change of coverage, and pixels that were compared.
     flips: [f64; 2],
@@ -98,7 +98,7 @@ struct OpenSums {
 }
 
 #[derive(Clone, Debug)]
-struct TruthSums {
+struct ErrorSums {
     coverage: f64,
     rmse: f64,
     rmse_coverage: f64,
@@ -176,7 +176,7 @@ impl Measured {
             if let Some(gaze) = &asked.gaze {
                 add_around(gaze, picture, truth, sums.gaze.get_or_insert_default());
             }
-            let errors = sums.truth.get_or_insert_with(|| TruthSums {
+            let errors = sums.truth.get_or_insert_with(|| ErrorSums {
                 coverage: 0.0,
                 rmse: 0.0,
                 rmse_coverage: 0.0,

@@ -4,20 +4,18 @@ use super::auto;
 use super::expect::{Checked, check};
 use super::metrics::{Asked, Measured, Metrics};
 use super::picture::{self, Inset, Picture};
-use crate::render::draw::adjust::textures;
 use crate::render::draw::cost::Cost;
-use crate::render::draw::plan::{Plan, plan};
+use crate::render::draw::frame::{frame, moment};
+use crate::render::draw::plan::{Memory, Plan};
+use crate::render::draw::reference;
 use crate::render::draw::shot::{Shot, shots};
-use crate::render::draw::temporal::{self, Moved};
 use crate::render::draw::texture::{Texture, TextureNeeds};
 use crate::render::draw::view::Cause;
-use crate::render::draw::{frame, reference};
 use crate::render::effect::Effects;
-use crate::render::effect::stage::Stage;
+use crate::render::effect::plan::plan;
 use crate::render::scene_file::load::Scene;
 use crate::render::scene_file::schema::Takes;
 use image::RgbImage;
-use std::collections::VecDeque;
 use std::time::Instant;
 
 /// What became of one take.
@@ -75,23 +73,24 @@ pub fn chosen(scene: &Scene, textures: &[Texture]) -> Vec<(Effects, Vec<String>)
 pub fn study(scene: &Scene, progress: &mut dyn FnMut(u64, u64)) -> Study {
     let plans: Vec<Plan> = match &scene.file.effects {
         Takes::Sets(sets) => sets.iter().map(plan).collect(),
-        Takes::Auto => vec![plan(&auto::choose(scene, &scene.textures(false)).effects)],
+        Takes::Auto => vec![plan(&auto::choose(scene, &scene.textures(&TextureNeeds::default())).effects)],
     };
     // One set of textures for all plans that need the same of them.
-    let of_truth = TextureNeeds { premultiplied: true, ..TextureNeeds::default() };
-    let mut covers: Vec<(TextureNeeds, Vec<Texture>)> = Vec::new();
-    for needs in plans.iter().map(|plan| plan.textures).chain(scene.file.truth.as_ref().map(|_| of_truth)) {
-        if !covers.iter().any(|(known, _)| *known == needs) {
-            covers.push((needs, textures(scene, needs)));
+    let of_reference = reference::texture_needs();
+    let mut all: Vec<(TextureNeeds, Vec<Texture>)> = Vec::new();
+    let asked = plans.iter().map(|plan| &plan.setup.textures);
+    for needs in asked.chain(scene.file.truth.as_ref().map(|_| &of_reference)) {
+        if !all.iter().any(|(known, _)| known == needs) {
+            all.push((needs.clone(), scene.textures(needs)));
         }
     }
-    let find = |needs: TextureNeeds| -> &[Texture] {
-        covers.iter().find(|(known, _)| *known == needs).map_or(&[], |(_, textures)| textures)
+    let find = |needs: &TextureNeeds| -> &[Texture] {
+        all.iter().find(|(known, _)| known == needs).map_or(&[], |(_, textures)| textures)
     };
     let shots = shots(scene);
     let frames = scene.file.frames.get();
     // What a mixture shows in its first frame is no mixture.
-    let shown = if plans.iter().any(Plan::mixes) { frames - 1 } else { 0 };
+    let shown = if plans.iter().any(|plan| plan.setup.mixes) { frames - 1 } else { 0 };
     let per_frame = plans.len() as u64 + u64::from(scene.file.truth.is_some());
     let total = shots.len() as u64 * u64::from(frames) * per_frame;
     let mut done = 0;
@@ -102,19 +101,27 @@ pub fn study(scene: &Scene, progress: &mut dyn FnMut(u64, u64)) -> Study {
         .map(|plan| (Take::new(plan, shown), Measured::new(&scene.file.region, scene.file.depth.as_ref())))
         .collect();
     for shot in &shots {
-        let mut histories = vec![(None, VecDeque::new()); takes.len()];
+        let mut memories = vec![Vec::new(); takes.len()];
         takes.iter_mut().for_each(|(_, measured)| measured.begin());
         for index in 0..frames {
             let truth = scene.file.truth.as_ref().map(|truth| {
                 let (picture, cost) =
-                    reference::frame(scene, find(of_truth), shot, index, truth.samples.get());
+                    reference::frame(scene, find(&of_reference), shot, index, truth.samples.get());
                 truth_cost += cost;
                 done += 1;
                 progress(done, total);
                 picture
             });
-            for ((take, measured), history) in takes.iter_mut().zip(&mut histories) {
-                take.draw(scene, find(take.plan.textures), shot, index, history, measured, truth.as_ref());
+            for ((take, measured), memory) in takes.iter_mut().zip(&mut memories) {
+                take.draw(
+                    scene,
+                    find(&take.plan.setup.textures),
+                    shot,
+                    index,
+                    memory,
+                    measured,
+                    truth.as_ref(),
+                );
                 done += 1;
                 progress(done, total);
             }
@@ -129,7 +136,9 @@ pub fn study(scene: &Scene, progress: &mut dyn FnMut(u64, u64)) -> Study {
         }
     }
     let takes: Vec<Take> = takes.into_iter().map(|(take, measured)| take.finish(&measured)).collect();
-    let checked = scene.file.expect.iter().map(|expectation| check(expectation, &takes)).collect();
+    let numbers: Vec<(&str, &Metrics)> =
+        takes.iter().map(|take| (take.plan.name.as_str(), &take.metrics)).collect();
+    let checked = scene.file.expect.iter().map(|expectation| check(expectation, &numbers)).collect();
     Study { takes, truth: truths, truth_cost, checked }
 }
 
@@ -185,40 +194,13 @@ impl Take {
         textures: &[Texture],
         shot: &Shot,
         index: u32,
-        (average, last): &mut (Option<Picture>, VecDeque<Picture>),
+        memories: &mut Vec<Memory>,
         measured: &mut Measured,
         truth: Option<&Picture>,
     ) {
         let begun = Instant::now();
-        let mut frame = frame::frame(scene, textures, &self.plan, shot, index);
-        for stage in &self.plan.stages {
-            let pixels = frame.picture.coverage.len() as u64;
-            match stage {
-                Stage::History(table) => {
-                    if let Some(before) = average {
-                        let moved = frame.depth.as_ref().filter(|_| table.reproject).map(|depth| Moved {
-                            now: shot.camera(scene, index, 1),
-                            before: shot.camera(scene, index - 1, 1),
-                            offset: self.plan.offset(index) / f64::from(self.plan.places),
-                            depth,
-                        });
-                        frame.picture = temporal::accumulate(before, &frame.picture, table, moved.as_ref());
-                    }
-                    *average = Some(frame.picture.clone());
-                    frame.cost.blends += pixels;
-                    frame.cost.projections += if table.reproject { pixels } else { 0 };
-                }
-                Stage::Average(frames) => {
-                    last.push_back(frame.picture);
-                    if last.len() > frames.get() as usize {
-                        last.pop_front();
-                    }
-                    frame.picture = Picture::mean(last.iter());
-                    frame.cost.blends += pixels;
-                }
-                _ => {}
-            }
-        }
+        let mut frame = frame(scene, textures, &self.plan, shot, index);
+        self.plan.finish(&mut frame, &moment(scene, &self.plan, shot, index), memories);
         self.seconds += begun.elapsed().as_secs_f64();
         self.cost += frame.cost;
         let is_first_shot = measured.is_first_shot();
@@ -234,8 +216,11 @@ impl Take {
         } else if index.abs_diff(self.frame) == 1 && is_first_shot {
             self.beside = Some(frame.picture.clone());
         }
-        let asked =
-            Asked { layers: scene.file.layers.is_some(), ghosts: self.plan.mixes(), gaze: self.plan.gaze };
+        let asked = Asked {
+            layers: scene.file.layers.is_some(),
+            ghosts: self.plan.setup.mixes,
+            gaze: self.plan.setup.gaze,
+        };
         measured.add(&frame, truth, asked);
     }
 

@@ -3,7 +3,7 @@
 use super::image::{Channel, ImageError, level as level_of};
 use super::limits::MOST_TRIANGLES;
 use crate::render::draw::mesh::{Mesh, Triangle, Vertex};
-use crate::render::draw::texture::{Cover, Filter, Level, Wrap};
+use crate::render::draw::texture::{Filter, Level, TextureSource, Wrap};
 use glam::{DMat4, DVec2, DVec3};
 use gltf::accessor::sparse;
 use gltf::image::Format;
@@ -229,17 +229,23 @@ fn kinds(primitive: &gltf::Primitive<'_>) -> Result<(), String> {
     is("indices", primitive.indices(), Dimensions::Scalar, &[bytes, words, DataType::U32])
 }
 
-/// Adds what was found to a scene; `named` is the texture that covers all of it in place of its own.
-pub fn append(found: Found, object: u32, named: Option<usize>, mesh: &mut Mesh, covers: &mut Vec<Cover>) {
-    let (first, first_texture) = (mesh.vertices.len() as u32, covers.len());
+/// Adds what was found to a scene; `named` is the texture that sources all of it in place of its own.
+pub fn append(
+    found: Found,
+    object: u32,
+    named: Option<usize>,
+    mesh: &mut Mesh,
+    sources: &mut Vec<TextureSource>,
+) {
+    let (first, first_texture) = (mesh.vertices.len() as u32, sources.len());
     mesh.vertices.extend(found.vertices);
     for (corners, texture) in found.triangles {
         let texture = named.unwrap_or(first_texture + texture as usize) as u32;
         mesh.triangles.push(Triangle { corners: corners.map(|c| first + c), object, texture });
     }
     if named.is_none() {
-        let cover = |finest| Cover { finest, wrap: Wrap::Repeat, filter: Filter::Trilinear };
-        covers.extend(found.textures.into_iter().map(cover));
+        let source = |finest| TextureSource { finest, wrap: Wrap::Repeat, filter: Filter::Trilinear };
+        sources.extend(found.textures.into_iter().map(source));
     }
 }
 

@@ -1,5 +1,6 @@
 //! Image files as the finest level of a texture.
 
+use super::bound::LARGEST_IMAGE_SIDE;
 use crate::render::draw::texture::Level;
 use image::{DynamicImage, ImageReader, Limits};
 use serde::Deserialize;
@@ -7,8 +8,6 @@ use std::fs::File;
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
-/// The largest side of an image, in pixels.
-const LARGEST_SIDE: u32 = 65_535;
 /// The most pixels of an image: those of a square of 8192.
 const MOST_PIXELS: u64 = 1 << 26;
 
@@ -85,8 +84,8 @@ pub fn read(path: &Path, channel: Channel) -> Result<Level, ImageError> {
         .with_guessed_format()
         .map_err(|source| ImageError::Open { path: path.into(), source })?;
     let mut limits = Limits::default();
-    limits.max_image_width = Some(LARGEST_SIDE);
-    limits.max_image_height = Some(LARGEST_SIDE);
+    limits.max_image_width = Some(LARGEST_IMAGE_SIDE);
+    limits.max_image_height = Some(LARGEST_IMAGE_SIDE);
     // Eight bytes a pixel, the most that a decoder asks for.
     limits.max_alloc = Some(MOST_PIXELS * 8 + (1 << 20));
     reader.limits(limits);
@@ -101,7 +100,7 @@ pub fn read(path: &Path, channel: Channel) -> Result<Level, ImageError> {
 pub fn level(image: &DynamicImage, channel: Channel, path: &Path) -> Result<Level, ImageError> {
     let (width, height) = (image.width(), image.height());
     let pixels = u64::from(width) * u64::from(height);
-    if !(1..=MOST_PIXELS).contains(&pixels) || width.max(height) > LARGEST_SIDE {
+    if !(1..=MOST_PIXELS).contains(&pixels) || width.max(height) > LARGEST_IMAGE_SIDE {
         return Err(ImageError::Size { path: path.into(), width, height });
     }
     if channel == Channel::Alpha && !image.color().has_alpha() {

@@ -1,34 +1,14 @@
 //! The numbers that a scene file may have: one bound for each key, and what all of them may come to together, so that
 //! whatever is asked for fits into memory and into the whole numbers that count it.
 
-/// The numbers that a key may have.
-#[derive(Clone, Copy)]
-enum Bound {
-    /// Both ends are allowed.
-    From(f64, f64),
-    /// Above 0, up to an end that is allowed.
-    UpTo(f64),
-}
-
+use super::bound::Bound::{self, From, UpTo};
+use super::bound::{LARGEST, LARGEST_SIDE};
+use super::diagnostic::Diagnostic;
 use super::schema::{SceneFile, Takes};
-use super::spans::{Number, Places, Span};
-use Bound::{From, UpTo};
+use super::spans::{Number, Span, Spans};
+use crate::render::effect::ALL;
+use crate::render::effect::plan::plan;
 
-/// The largest side of an image, in pixels.
-pub(in crate::render) const LARGEST_SIDE: u32 = 16_384;
-
-/// What no number exceeds, whatever its key: beyond, the positions of a mesh lose whole units.
-const LARGEST: f64 = 1.0e15;
-/// Lengths and scales of objects.
-const LENGTH: Bound = From(1.0 / LARGEST, LARGEST);
-/// Ratios: of distances, of noise to a pixel.
-const RATIO: Bound = From(1.0e-6, 1.0e6);
-/// The threshold of an alpha test.
-const THRESHOLD: Bound = UpTo(1.0);
-/// Samples in a pixel: bits of a word.
-const SAMPLES: Bound = From(1.0, 64.0);
-/// Frames that belong together.
-const CYCLE: Bound = From(1.0, 1024.0);
 /// Parts of a surface, and of a texture, which reads all of them for each texel.
 const PARTS: Bound = From(1.0, (1 << 21) as f64);
 const STROKES: Bound = From(1.0, 4096.0);
@@ -42,7 +22,7 @@ const BOUNDS: &[(&str, Bound)] = &[
     ("resolution", SIDE),
     ("frames", From(1.0, 100_000.0)),
     ("seed", From(0.0, u64::MAX as f64)),
-    ("camera.half_height", RATIO),
+    ("camera.half_height", Bound::RATIO),
     ("camera.motion.translate", From(-1.0e6, 1.0e6)),
     ("camera.motion.zoom", From(1.0e-3, 1.0e3)),
     ("texture.size", From(1.0, 4096.0)),
@@ -56,56 +36,37 @@ const BOUNDS: &[(&str, Bound)] = &[
     ("texture.checkerboard.squares", STROKES),
     ("texture.constant.alpha", From(0.0, 1.0)),
     ("texture.constant.colour", From(0.0, 1.0)),
-    ("surface.card.size", LENGTH),
+    ("surface.card.size", Bound::LENGTH),
     ("surface.card.repeat", From(-1.0e6, 1.0e6)),
-    ("surface.plane.size", LENGTH),
+    ("surface.plane.size", Bound::LENGTH),
     ("surface.plane.repeat", From(-1.0e6, 1.0e6)),
     ("surface.fence.panels", PARTS),
-    ("surface.fence.size", LENGTH),
+    ("surface.fence.size", Bound::LENGTH),
     ("surface.fence.repeat", From(-1.0e6, 1.0e6)),
     ("surface.foliage.cards", PARTS),
-    ("surface.foliage.card", LENGTH),
+    ("surface.foliage.card", Bound::LENGTH),
     ("surface.foliage.radii", From(0.0, LARGEST)),
     ("surface.instances.count", PARTS),
-    ("surface.instances.size", LENGTH),
+    ("surface.instances.size", Bound::LENGTH),
     ("surface.instances.ground", From(0.0, LARGEST)),
     ("surface.hair.strips", PARTS),
-    ("surface.hair.size", LENGTH),
+    ("surface.hair.size", Bound::LENGTH),
     ("surface.hair.radius", From(0.0, LARGEST)),
     ("surface.stack.cards", LAYERS),
-    ("surface.stack.size", LENGTH),
-    ("surface.checkerboard.size", LENGTH),
-    ("surface.checkerboard.square", LENGTH),
-    ("surface.mesh.scale", LENGTH),
-    ("target.samples", SAMPLES),
-    ("target.history", CYCLE),
+    ("surface.stack.size", Bound::LENGTH),
+    ("surface.checkerboard.size", Bound::LENGTH),
+    ("surface.checkerboard.square", Bound::LENGTH),
+    ("surface.mesh.scale", Bound::LENGTH),
+    ("target.samples", Bound::SAMPLES),
+    ("target.history", Bound::CYCLE),
     ("truth.samples", From(1.0, 64.0)),
-    ("distance.factors", RATIO),
+    ("distance.factors", Bound::RATIO),
     ("depth.ratio", SIDE),
     ("region.corner", CORNER),
     ("region.size", SIDE),
     ("inset.corner", CORNER),
     ("inset.size", SIDE),
     ("inset.times", From(1.0, 64.0)),
-    ("effects.supersampling.samples", From(1.0, 16.0)),
-    ("effects.limited_level.level", From(0.0, 64.0)),
-    ("effects.scaled_texels.radius", From(0.0, 64.0)),
-    ("effects.foveated.gaze", From(-1.0e6, 1.0e6)),
-    ("effects.foveated.radius", From(0.0, 1.0e6)),
-    ("effects.foveated.slope", From(0.0, 1.0e6)),
-    ("effects.fixed.threshold", THRESHOLD),
-    ("effects.hashed.hash_scale", RATIO),
-    ("effects.robust.hash_scale", RATIO),
-    ("effects.independent.frames", CYCLE),
-    ("effects.jitter.frames", CYCLE),
-    ("effects.temporal.frames", CYCLE),
-    ("effects.multisampling.samples", SAMPLES),
-    ("effects.alpha_to_coverage.samples", SAMPLES),
-    ("effects.fade_in.full_noise_lod", UpTo(1.0e6)),
-    ("effects.fade_in.authored", THRESHOLD),
-    ("effects.occlusion.reach", LENGTH),
-    ("effects.history.weight", UpTo(1.0)),
-    ("effects.average.frames", CYCLE),
 ];
 
 /// Triangles of a scene.
@@ -115,23 +76,19 @@ const MOST_PIXELS: u64 = 1 << 26;
 /// Pixels of all frames of all takes, which are kept until the pictures are written.
 const MOST_KEPT: u64 = 1 << 30;
 
-impl Bound {
-    fn holds(self, value: f64) -> bool {
-        match self {
-            From(low, high) => (low..=high).contains(&value),
-            UpTo(high) => value > 0.0 && value <= high,
-        }
-    }
-}
-
 /// Finds a number beyond the bound of its key.
-pub(in crate::render) fn numbers(places: &Places<'_>) -> Result<(), (Option<Span>, String)> {
+pub(in crate::render) fn numbers(spans: &Spans<'_>) -> Result<(), (Option<Span>, String)> {
     let wrong = |&Number { ref key, value, .. }: &Number<'_>| {
-        let bound = BOUNDS.iter().find(|(known, _)| known == key);
-        let bound = bound.map_or(From(-LARGEST, LARGEST), |&(_, bound)| bound);
+        let of_effect = || {
+            let (table, key) = key.strip_prefix("effects.")?.split_once('.')?;
+            let known = ALL.iter().find(|known| known.name == table)?;
+            known.about.bounds.iter().find(|(known, _)| *known == key)
+        };
+        let bound = BOUNDS.iter().find(|(known, _)| known == key).or_else(of_effect);
+        let bound = bound.map_or(Bound::ANY, |&(_, bound)| bound);
         (!bound.holds(value)).then_some(bound)
     };
-    let found = places.numbers();
+    let found = spans.numbers();
     match found.iter().find_map(|number| Some((number, wrong(number)?))) {
         None => Ok(()),
         Some((Number { key, span, text, .. }, bound)) => {
@@ -150,9 +107,9 @@ fn short(number: f64) -> String {
     if power.len() < plain.len() && power.len() < 6 && plain.len() > 6 { power } else { plain }
 }
 
-/// Finds what comes to too much together: the path of a key, and what is wrong.
-pub(in crate::render) fn totals(scene: &SceneFile) -> Result<(), (String, String)> {
-    let wrong = |key: &str, message: String| Err((key.to_owned(), message));
+/// Finds what comes to too much together.
+pub(in crate::render) fn totals(scene: &SceneFile) -> Result<(), Diagnostic> {
+    let wrong = |key: &str, message: String| Err(Diagnostic::new(key, message));
     let mut triangles = 0_u64;
     for (index, surface) in scene.surface.iter().enumerate() {
         triangles = triangles.saturating_add(surface.triangles());
@@ -177,13 +134,12 @@ pub(in crate::render) fn totals(scene: &SceneFile) -> Result<(), (String, String
         Takes::Auto => &[][..],
         Takes::Sets(sets) => sets,
     };
-    let truth = scene.truth.as_ref().map(|truth| ("truth.samples".to_owned(), truth.samples));
-    let sampled = sets.iter().enumerate().filter_map(|(index, set)| {
-        Some((format!("effects.{index}.supersampling.samples"), set.supersampling.as_ref()?.samples))
-    });
-    let one = ("resolution".to_owned(), core::num::NonZeroU32::MIN);
+    let truth = scene.truth.as_ref().map(|truth| ("truth.samples".to_owned(), truth.samples.get()));
+    let sampled =
+        sets.iter().enumerate().map(|(index, set)| (format!("effects.{index}"), plan(set).setup.places));
+    let one = ("resolution".to_owned(), 1);
     for (key, side) in [one].into_iter().chain(truth).chain(sampled) {
-        let side = u64::from(side.get());
+        let side = u64::from(side);
         if width * height * side * side > MOST_PIXELS {
             let what = format!("{width} x {height} pixels with {side} x {side} places each");
             return wrong(&key, format!("{what} are more than the {MOST_PIXELS} that are drawn at once"));

@@ -5,7 +5,7 @@ use super::image::{self, ImageError};
 use super::schema::{SceneFile, TextureTable};
 use super::surface::Board;
 use crate::render::draw::mesh::Mesh;
-use crate::render::draw::texture::{Cover, Level, Texture};
+use crate::render::draw::texture::{Level, Texture, TextureNeeds, TextureSource};
 use std::path::Path;
 use std::sync::OnceLock;
 
@@ -16,7 +16,7 @@ pub struct Scene {
     pub file: SceneFile,
     /// Every triangle.
     pub mesh: Mesh,
-    covers: Vec<Cover>,
+    sources: Vec<TextureSource>,
     /// Found when it is first asked for.
     parts: OnceLock<Vec<u32>>,
 }
@@ -59,11 +59,11 @@ impl AssetError {
 ///
 /// [`AssetError`] for an image or a mesh that cannot be used; it names the file.
 pub fn prepare(file: SceneFile, folder: &Path) -> Result<Scene, AssetError> {
-    let mut covers = Vec::new();
+    let mut sources = Vec::new();
     for (texture, table) in file.texture.iter().enumerate() {
         let finest =
             draw(table, file.seed, folder).map_err(|source| AssetError::Image { texture, source })?;
-        covers.push(Cover { finest, wrap: table.wrap, filter: table.filter });
+        sources.push(TextureSource { finest, wrap: table.wrap, filter: table.filter });
     }
     let mut mesh = Mesh::default();
     for (index, surface) in file.surface.iter().enumerate() {
@@ -73,19 +73,19 @@ pub fn prepare(file: SceneFile, folder: &Path) -> Result<Scene, AssetError> {
             .and_then(|name| file.texture.iter().position(|texture| texture.name == *name));
         let named = named.or_else(|| {
             surface.checkerboard.as_ref().map(|_| {
-                covers.push(Board::cover());
-                covers.len() - 1
+                sources.push(Board::texture());
+                sources.len() - 1
             })
         });
         mesh.objects.push(surface.object());
         if let Some(from) = &surface.mesh {
             let found = gltf::read(&folder.join(&from.file), from.scale, named.is_none())
                 .map_err(|source| AssetError::Mesh { surface: index, source })?;
-            gltf::append(found, index as u32, named, &mut mesh, &mut covers);
+            gltf::append(found, index as u32, named, &mut mesh, &mut sources);
         }
         surface.build(&mut mesh, index as u32, named.unwrap_or(0) as u32, file.seed);
     }
-    Ok(Scene { file, mesh, covers, parts: OnceLock::new() })
+    Ok(Scene { file, mesh, sources, parts: OnceLock::new() })
 }
 
 impl Scene {
@@ -95,12 +95,10 @@ impl Scene {
         self.parts.get_or_init(|| self.mesh.parts())
     }
 
-    /// Builds the mip chains; colours are multiplied by alpha where `premultiplied`.
+    /// Builds the textures that a plan needs, with every level.
     #[must_use]
-    pub fn textures(&self, premultiplied: bool) -> Vec<Texture> {
-        let build =
-            |cover: &Cover| Texture::new(cover.finest.clone(), cover.wrap, cover.filter, premultiplied);
-        self.covers.iter().map(build).collect()
+    pub fn textures(&self, needs: &TextureNeeds) -> Vec<Texture> {
+        self.sources.iter().map(|source| Texture::new(source, needs)).collect()
     }
 }
 

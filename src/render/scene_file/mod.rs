@@ -4,11 +4,14 @@
 //! |---|---|
 //! | [`schema`] | what a file may have |
 //! | [`read`] | a file's text, checked |
-//! | `limits`, `spans`, `suggest` | bounds of its numbers, where its keys stand, what was likely meant |
+//! | [`bound`], `limits` | bounds of its numbers, one by one and together |
+//! | [`diagnostic`], `spans` | what is wrong at which key, and where that stands |
 //! | [`load`] | a file with all that it names |
 //! | [`surface`], [`procedural`] | what surfaces and built-in textures are made of |
 //! | [`mod@image`], [`mod@gltf`] | where other textures and meshes come from |
 
+pub mod bound;
+pub mod diagnostic;
 pub mod gltf;
 pub mod image;
 mod limits;
@@ -17,5 +20,4 @@ pub mod procedural;
 pub mod read;
 pub mod schema;
 mod spans;
-pub(in crate::render) mod suggest;
 pub mod surface;

@@ -212,14 +212,14 @@ mod tests {
     fn maps_cover_what_they_say() {
         let wire = Wire { thickness: 0.2, meshes: 2 }.draw(64, 1.0);
         // Two families of wires that cover a fifth each.
-        assert!((wire.mean_alpha() - 0.36).abs() < 0.02, "{}", wire.mean_alpha());
-        assert_eq!(Checkerboard { squares: 8 }.draw(64, 1.0).mean_alpha(), 0.5);
-        assert!((Constant { alpha: 0.3, colour: veil() }.draw(4).mean_alpha() - 0.3).abs() < 1e-7);
+        assert!((wire.alphas().mean() - 0.36).abs() < 0.02, "{}", wire.alphas().mean());
+        assert_eq!(Checkerboard { squares: 8 }.draw(64, 1.0).alphas().mean(), 0.5);
+        assert!((Constant { alpha: 0.3, colour: veil() }.draw(4).alphas().mean() - 0.3).abs() < 1e-7);
         let ramp = Ramp {}.draw(16, 0.8);
-        assert!((ramp.mean_alpha() - 0.4).abs() < 1e-6 && ramp.alpha[0] < 0.03 && ramp.alpha[31] > 0.77);
+        assert!((ramp.alphas().mean() - 0.4).abs() < 1e-6 && ramp.alpha[0] < 0.03 && ramp.alpha[31] > 0.77);
         let leaves = Leaves { count: 14, length: 0.36 }.draw(64, 1.0, 0);
-        assert!((0.2..0.5).contains(&leaves.mean_alpha()), "{}", leaves.mean_alpha());
+        assert!((0.2..0.5).contains(&leaves.alphas().mean()), "{}", leaves.alphas().mean());
         let hair = Hair { strands: 24, thickness: 0.02 }.draw(64, 1.0, 0);
-        assert!((0.1..0.4).contains(&hair.mean_alpha()), "{}", hair.mean_alpha());
+        assert!((0.1..0.4).contains(&hair.alphas().mean()), "{}", hair.alphas().mean());
     }
 }

@@ -1,11 +1,10 @@
 //! Scene files: TOML in, a checked [`SceneFile`] or an error with file, line, column and the likely remedy out.
 
+use super::diagnostic::{Diagnostic, likely, place, plain, suggest};
 use super::limits;
 use super::schema::{SceneFile, Takes};
-use super::spans::{Places, Span};
-use super::suggest::{likely, place, plain, suggest};
-use crate::render::draw::plan::plan;
-use crate::render::effect;
+use super::spans::{Span, Spans};
+use crate::render::effect::plan::{check as check_effects, plan};
 use crate::render::measure::expect;
 
 /// A scene file that cannot be used.
@@ -34,19 +33,19 @@ pub fn read(text: &str, file: &str) -> Result<SceneFile, FileError> {
         FileError { file: file.to_owned(), line, column, message }
     };
     let broken = |error: &toml::de::Error| error.message().trim().replace('\n', "; ");
-    let places = Places::new(text).map_err(|error| at(error.span(), broken(&error)))?;
-    limits::numbers(&places).map_err(|(span, message)| at(span, message))?;
+    let spans = Spans::new(text).map_err(|error| at(error.span(), broken(&error)))?;
+    limits::numbers(&spans).map_err(|(span, message)| at(span, message))?;
     let scene: SceneFile = toml::from_str(text).map_err(|error| {
         let message = broken(&error);
-        let around = error.span().and_then(|span| places.around(span.start));
+        let around = error.span().and_then(|span| spans.around(span.start));
         match (suggest(&message), around) {
             (Some(message), _) => at(error.span(), message),
             (None, Some((key, span))) => at(Some(span), plain(&key, &message)),
             (None, None) => at(error.span(), plain("", &message)),
         }
     })?;
-    check(&scene).map_err(|(key, message)| at(places.key(&key), message))?;
-    limits::totals(&scene).map_err(|(key, message)| at(places.key(&key), message))?;
+    let told = |wrong: Diagnostic| at(spans.key(&wrong.key), wrong.message);
+    check(&scene).and_then(|()| limits::totals(&scene)).map_err(told)?;
     Ok(scene)
 }
 
@@ -56,68 +55,66 @@ pub fn read(text: &str, file: &str) -> Result<SceneFile, FileError> {
 ///
 /// What that is, with the limit.
 pub fn check_changed(scene: &SceneFile) -> Result<(), String> {
-    check_camera(scene).and_then(|()| limits::totals(scene)).map_err(|(_, message)| message)
+    check_camera(scene).and_then(|()| limits::totals(scene)).map_err(|wrong| wrong.message)
 }
 
 /// Makes an error of what stands behind a key: `key` is its path with the number of each table in a list, from 0.
 #[must_use]
 pub fn error_at(text: &str, file: &str, key: &str, message: String) -> FileError {
-    let span = Places::new(text).ok().and_then(|places| places.key(key));
+    let span = Spans::new(text).ok().and_then(|spans| spans.key(key));
     let (line, column) = place(text, span.map_or(0, |span| span.start));
     FileError { file: file.to_owned(), line, column, message }
 }
 
-/// The path of a key, and what is wrong with it.
-type Wrong = (String, String);
-
 /// What is wrong between keys, and with words.
-fn check(scene: &SceneFile) -> Result<(), Wrong> {
+fn check(scene: &SceneFile) -> Result<(), Diagnostic> {
     check_name("name", &scene.name)?;
     check_camera(scene)?;
     for (index, texture) in scene.texture.iter().enumerate() {
         let (key, name) = (format!("texture.{index}.name"), &texture.name);
-        exactly_one(key.clone(), &format!("texture `{name}`"), &texture.kinds(), TEXTURES)?;
+        exactly_one(key.clone(), &format!("texture `{name}`"), &texture.kinds())?;
         if scene.texture[..index].iter().any(|other| other.name == *name) {
-            return Err((key, format!("two textures are called `{name}`")));
+            return Err(Diagnostic::new(key, format!("two textures are called `{name}`")));
         }
     }
     let names: Vec<&str> = scene.texture.iter().map(|texture| texture.name.as_str()).collect();
     for (index, surface) in scene.surface.iter().enumerate() {
         let what = format!("surface {}", index + 1);
         let key = |name: &str| format!("surface.{index}.{name}");
-        exactly_one(key("texture"), &what, &surface.kinds(), SURFACES)?;
+        exactly_one(key("texture"), &what, &surface.kinds())?;
         if let Some(board) = &surface.checkerboard
             && !board.size.iter().all(|side| side / board.square <= 1.0e6)
         {
             let message =
                 format!("{what}: `checkerboard.size` has more than a million of its squares in a row");
-            return Err((key("checkerboard.square"), message));
+            return Err(Diagnostic::new(key("checkerboard.square"), message));
         }
         match &surface.texture {
             Some(name) if !names.contains(&name.as_str()) => {
                 let likely = likely(name, &names);
-                return Err((key("texture"), format!("no texture is called `{name}`.{likely}")));
+                let message = format!("no texture is called `{name}`.{likely}");
+                return Err(Diagnostic::new(key("texture"), message));
             }
             Some(_) if surface.checkerboard.is_some() => {
-                let message = "a checkerboard has a texture of its own; take `texture` away".to_owned();
-                return Err((key("texture"), message));
+                let message = "a checkerboard has a texture of its own; take `texture` away";
+                return Err(Diagnostic::new(key("texture"), message));
             }
             None if surface.mesh.is_none() && surface.checkerboard.is_none() => {
-                return Err((key(""), format!("{what} has no `texture`")));
+                return Err(Diagnostic::new(key(""), format!("{what} has no `texture`")));
             }
-            _ => {}
+            Some(_) | None => {}
         }
     }
     for (index, region) in scene.region.iter().enumerate() {
         if (0..2).any(|axis| region.corner[axis] >= scene.resolution[axis]) {
             let message = format!("`region.corner` of `{}` is outside of the picture", region.name);
-            return Err((format!("region.{index}.corner"), message));
+            return Err(Diagnostic::new(format!("region.{index}.corner"), message));
         }
     }
     if let Some(depth) = &scene.depth
         && scene.resolution.iter().any(|side| *side < depth.ratio.get())
     {
-        return Err(("depth.ratio".to_owned(), "`depth.ratio` leaves no pixel of the picture".to_owned()));
+        return Err(Diagnostic::new("depth.ratio", "`depth.ratio` leaves no pixel of the picture"));
     }
     let sets = match &scene.effects {
         Takes::Auto => &[][..],
@@ -126,29 +123,22 @@ fn check(scene: &SceneFile) -> Result<(), Wrong> {
     let mut takes: Vec<String> = Vec::new();
     for (index, set) in sets.iter().enumerate() {
         let key = format!("effects.{index}");
-        // The first word in quotes is the key that the message is about.
-        effect::check(set).map_err(|message| {
-            let word = message.split('`').nth(1).unwrap_or_default().to_owned();
-            (format!("{key}.{word}"), message)
-        })?;
+        check_effects(set).map_err(|wrong| wrong.within(&key))?;
         let name = plan(set).name;
         if takes.contains(&name) {
-            return Err((
-                format!("{key}.name"),
-                format!("two takes are called `{name}`; give one another `name`"),
-            ));
+            let message = format!("two takes are called `{name}`; give one another `name`");
+            return Err(Diagnostic::new(format!("{key}.name"), message));
         }
         takes.push(name);
     }
     let takes = (!takes.is_empty()).then_some(&takes[..]);
     scene.expect.iter().enumerate().try_for_each(|(index, expectation)| {
-        expect::check_words(expectation, takes)
-            .map_err(|(key, message)| (format!("expect.{index}.{key}"), message))
+        expect::check_words(expectation, takes).map_err(|wrong| wrong.within(&format!("expect.{index}")))
     })
 }
 
 /// Names become those of files.
-fn check_name(key: &str, name: &str) -> Result<(), Wrong> {
+fn check_name(key: &str, name: &str) -> Result<(), Diagnostic> {
     let known = |letter: char| letter.is_alphanumeric() || " -_.".contains(letter);
     let length = name.chars().count();
     if !(1..=100).contains(&length) || name.starts_with(['.', ' ']) || !name.chars().all(known) {
@@ -156,14 +146,14 @@ fn check_name(key: &str, name: &str) -> Result<(), Wrong> {
             "`{key}` is {name:?}; it must be 1 to 100 letters, digits, spaces, `-`, `_` and `.`, and begin with neither \
              a point nor a space: files are called so"
         );
-        return Err((key.to_owned(), message));
+        return Err(Diagnostic::new(key, message));
     }
     Ok(())
 }
 
 /// The camera must see in some direction, in every frame.
-fn check_camera(scene: &SceneFile) -> Result<(), Wrong> {
-    let wrong = |key: &str, message: &str| Err((key.to_owned(), message.to_owned()));
+fn check_camera(scene: &SceneFile) -> Result<(), Diagnostic> {
+    let wrong = |key: &str, message: &str| Err(Diagnostic::new(key, message));
     let camera = &scene.camera;
     let [eye, target, up] = [camera.eye, camera.target, camera.up].map(glam::DVec3::from);
     let to_eye = eye - target;
@@ -184,20 +174,25 @@ fn check_camera(scene: &SceneFile) -> Result<(), Wrong> {
              must be from 1e-9 to 1e9",
             scene.frames
         );
-        return Err(("camera.motion.zoom".to_owned(), message));
+        return Err(Diagnostic::new("camera.motion.zoom", message));
     }
     Ok(())
 }
 
-const TEXTURES: &str = "leaves, wire, hair, checkerboard, constant, ramp, image";
-const SURFACES: &str = "card, plane, fence, foliage, instances, hair, stack, checkerboard, mesh";
-
-fn exactly_one(key: String, what: &str, kinds: &[&str], known: &str) -> Result<(), Wrong> {
-    match kinds {
-        [_] => Ok(()),
-        [] => Err((key, format!("{what} says not what it is; add one table of: {known}"))),
-        _ => Err((key, format!("{what} is {} at once; keep one", kinds.join(" and ")))),
-    }
+/// A texture or a surface has one kind.
+fn exactly_one(key: String, what: &str, kinds: &[(&str, bool)]) -> Result<(), Diagnostic> {
+    let names =
+        |kinds: &[&(&str, bool)], by: &str| kinds.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(by);
+    let present: Vec<_> = kinds.iter().filter(|(_, present)| *present).collect();
+    let message = match present.len() {
+        1 => return Ok(()),
+        0 => format!(
+            "{what} has no kind; add exactly one of: {}",
+            names(&kinds.iter().collect::<Vec<_>>(), ", ")
+        ),
+        _ => format!("{what} is {} at once; keep one", names(&present, " and ")),
+    };
+    Err(Diagnostic::new(key, message))
 }
 
 #[cfg(test)]
@@ -252,7 +247,7 @@ variant = \"anisotropic\"
                 "texture = \"leav\"",
                 "s.toml:9:1: no texture is called `leav`. Did you mean `leaf`?",
             ),
-            ("leaves = {}", "", "s.toml:6:1: texture `leaf` says not what it is"),
+            ("leaves = {}", "", "s.toml:6:1: texture `leaf` has no kind"),
             ("leaves = {}", "leaves = {}\nconstant = { alpha = 0.5 }", "is leaves and constant at once"),
             ("0.0, 0.0, 5.0", "0.0, 0.0", "s.toml:3:1: `camera.eye`: "),
             ("[camera]", "[camera", "s.toml:2:8: "),

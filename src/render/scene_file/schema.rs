@@ -44,7 +44,7 @@ pub struct SceneFile {
     #[serde(default)]
     pub target: Target,
     /// Sorted blending with supersampling beside it, and the error to it.
-    pub truth: Option<Truth>,
+    pub truth: Option<ReferenceImage>,
     /// The same from further away.
     pub distance: Option<Distance>,
     /// Correlation of the first two layers.
@@ -99,9 +99,9 @@ pub struct TextureTable {
 }
 
 impl TextureTable {
-    /// The tables that are present, by name; a sound texture has one.
-    pub(in crate::render) fn kinds(&self) -> Vec<&'static str> {
-        let all = [
+    /// The tables that say where it comes from, and whether each is present; a sound texture has one.
+    pub(super) fn kinds(&self) -> [(&'static str, bool); 7] {
+        [
             ("leaves", self.leaves.is_some()),
             ("wire", self.wire.is_some()),
             ("hair", self.hair.is_some()),
@@ -109,8 +109,7 @@ impl TextureTable {
             ("constant", self.constant.is_some()),
             ("ramp", self.ramp.is_some()),
             ("image", self.image.is_some()),
-        ];
-        all.into_iter().filter(|&(_, present)| present).map(|(name, _)| name).collect()
+        ]
     }
 }
 
@@ -130,10 +129,10 @@ impl Default for Target {
     }
 }
 
-/// Ground truth.
+/// The reference image: sorted blending with supersampling.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Truth {
+pub struct ReferenceImage {
     /// Samples along each side of a pixel.
     pub samples: NonZeroU32,
 }

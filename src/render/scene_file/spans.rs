@@ -8,7 +8,7 @@ use toml::de::{DeTable, DeValue};
 pub(in crate::render) type Span = Range<usize>;
 
 /// The keys of a text.
-pub(in crate::render) struct Places<'t> {
+pub(in crate::render) struct Spans<'t> {
     text: &'t str,
     table: DeTable<'t>,
 }
@@ -25,7 +25,7 @@ pub(in crate::render) struct Number<'t> {
     pub(in crate::render) value: f64,
 }
 
-impl<'t> Places<'t> {
+impl<'t> Spans<'t> {
     /// Finds the keys of a text.
     pub(in crate::render) fn new(text: &'t str) -> Result<Self, toml::de::Error> {
         Ok(Self { text, table: DeTable::parse(text)?.into_inner() })
@@ -120,19 +120,19 @@ mod tests {
 
     #[test]
     fn keys_are_found_by_their_path() {
-        let places = Places::new(TEXT).unwrap();
-        let at = |path: &str| places.key(path).map(|span| &TEXT[span.start..span.start + 1]);
+        let spans = Spans::new(TEXT).unwrap();
+        let at = |path: &str| spans.key(path).map(|span| &TEXT[span.start..span.start + 1]);
         assert_eq!([at("a"), at("b.0.c"), at("b.1.d.e"), at("f.g.h")], ["a", "c", "e", "h"].map(Some));
         // What is not there is told at what is around it, one table stands for a list of one.
         assert_eq!([at("b.1.d.x"), at("f.0.g"), at("x")], [Some("d"), Some("g"), None]);
-        let around = |part: &str| places.around(TEXT.find(part).unwrap()).map(|(path, _)| path);
+        let around = |part: &str| spans.around(TEXT.find(part).unwrap()).map(|(path, _)| path);
         assert_eq!(around("-inf"), Some("b.d.e".to_owned()));
     }
 
     #[test]
     fn every_number_is_found_with_its_key() {
         let found: Vec<(String, f64)> =
-            Places::new(TEXT).unwrap().numbers().into_iter().map(|n| (n.key, n.value)).collect();
+            Spans::new(TEXT).unwrap().numbers().into_iter().map(|n| (n.key, n.value)).collect();
         let expected =
             [("a", 1.0), ("b.c", 2.0), ("b.c", 16.0), ("b.d.e", f64::NEG_INFINITY), ("f.g.h", f64::INFINITY)];
         assert_eq!(found, expected.map(|(key, value)| (key.to_owned(), value)));

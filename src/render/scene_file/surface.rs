@@ -2,7 +2,7 @@
 
 use super::procedural::Checkerboard;
 use crate::render::draw::mesh::{Mesh, Object, Vertex};
-use crate::render::draw::texture::{Cover, Filter, Wrap};
+use crate::render::draw::texture::{Filter, TextureSource, Wrap};
 use glam::{DAffine3, DMat3, DQuat, DVec2, DVec3, EulerRot, dvec2, dvec3};
 use rand::rngs::Xoshiro256PlusPlus;
 use rand::{RngExt, SeedableRng};
@@ -141,9 +141,9 @@ impl Board {
 
     /// Returns its texture, read along the longer axis of a footprint: boards are seen at grazing angles.
     #[must_use]
-    pub fn cover() -> Cover {
+    pub fn texture() -> TextureSource {
         let finest = Checkerboard { squares: Self::SQUARES }.draw(256, 1.0);
-        Cover { finest, wrap: Wrap::Repeat, filter: Filter::Anisotropic }
+        TextureSource { finest, wrap: Wrap::Repeat, filter: Filter::Anisotropic }
     }
 }
 
@@ -167,10 +167,9 @@ fn unit() -> f64 {
 }
 
 impl Surface {
-    /// The tables that are present, by name; a sound surface has one.
-    #[must_use]
-    pub fn kinds(&self) -> Vec<&'static str> {
-        let all = [
+    /// The tables that say what it is, and whether each is present; a sound surface has one.
+    pub(super) fn kinds(&self) -> [(&'static str, bool); 9] {
+        [
             ("card", self.card.is_some()),
             ("plane", self.plane.is_some()),
             ("fence", self.fence.is_some()),
@@ -180,8 +179,7 @@ impl Surface {
             ("stack", self.stack.is_some()),
             ("checkerboard", self.checkerboard.is_some()),
             ("mesh", self.mesh.is_some()),
-        ];
-        all.into_iter().filter(|&(_, present)| present).map(|(name, _)| name).collect()
+        ]
     }
 
     /// Returns the number of triangles that it becomes, but for those that come from a file.

@@ -104,11 +104,11 @@ struct TechniqueLine {
 pub fn write_techniques(prices: &[TechniquePrice], out: &mut (impl Write + ?Sized)) -> io::Result<()> {
     write_lines(
         out,
-        prices.iter().map(|TechniquePrice { technique, without, with }| TechniqueLine {
+        prices.iter().map(|TechniquePrice { technique, effect, without, with }| TechniqueLine {
             technique: technique.name,
-            scene: technique.scene,
-            take: technique.take,
-            table: technique.price,
+            scene: technique.shown[0],
+            take: technique.shown[1],
+            table: effect.map_or("truth", |effect| effect.name),
             without: *without,
             with: *with,
         }),

@@ -126,8 +126,9 @@ pub fn prices(effects: &'static str, prices: &[Price]) -> Table {
 /// Returns what every technique adds to a frame of its scene.
 #[must_use]
 pub fn techniques(prices: &[TechniquePrice]) -> Table {
-    let cells = |TechniquePrice { technique, without, with }: &TechniquePrice| {
-        let words = [technique.name, technique.source, technique.scene, technique.take, technique.price];
+    let cells = |TechniquePrice { technique, effect, without, with }: &TechniquePrice| {
+        let ([scene, take], table) = (technique.shown, effect.map_or("truth", |effect| effect.name));
+        let words = [technique.name, technique.source, scene, take, table];
         let numbers = [*without, *with, with - without].map(|ns| format!("{ns:.1}"));
         words.map(str::to_owned).into_iter().chain(numbers).collect()
     };

@@ -1,8 +1,59 @@
-//! Thresholds of surfaces that cover a part of their pixel only (§2, Fig. 4).
+//! Every pixel that a surface touches, and thresholds by the share that it covers (§2, Fig. 4):
+//! [`conservative`](crate::technique::conservative).
 
-use super::fragments::Fragments;
-use super::rasterise::TILE;
+use super::kind::{About, Effect, Phase, Plan, Role, Rules, Text, techniques, tell};
+use crate::render::draw::fragments::Fragments;
+use crate::render::draw::work::PIXELS;
+use crate::shader::beside;
 use crate::technique::conservative::corrected;
+use serde::Deserialize;
+
+/// Every pixel that a surface touches.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Conservative {
+    /// Whether thresholds are divided by the share of the pixel that the surface covers; without, surfaces grow by half a
+    /// pixel on every side.
+    #[serde(default = "yes")]
+    pub corrected: bool,
+}
+
+fn yes() -> bool {
+    true
+}
+
+impl Effect for Conservative {
+    const ABOUT: About = About::new(
+        "§2, Fig. 4",
+        "Draws every pixel that a surface touches, and corrects the threshold by the share that it covers",
+        "fragments: one for every pixel and triangle that touch",
+    )
+    .techniques(techniques![
+        "conservative": "§2, Fig. 4", "sub-pixel-cards" / "touching, corrected",
+            "Every card draws; the threshold must allow for its share of the pixel.";
+    ]);
+
+    fn rules(&self) -> Rules {
+        Rules::of(&[Role::Test, Role::Pixels])
+            .never(Role::SecondPass, "the first corrects thresholds and the second blends without")
+    }
+
+    fn plan(&self, plan: &mut Plan) {
+        let told = tell("rasterise: every pixel that a triangle touches", &[], Text::None);
+        plan.before(told, |setup| setup.needs.coverage = true);
+        if self.corrected {
+            let says = "correct: thresholds over the share of the pixel, those above 1 too";
+            plan.shade(
+                Phase::Correct,
+                tell(says, &[], Text::Beside(beside::CORRECTED)),
+                |shading, work, _| {
+                    let samples = work.threshold.len() / work.fragments.len();
+                    correct(&work.fragments, shading.parts, samples, &mut work.threshold);
+                },
+            );
+        }
+    }
+}
 
 /// What the latest surface of a pixel has covered of it.
 #[derive(Clone, Copy)]
@@ -21,8 +72,8 @@ const WHOLE: f64 = 1.0 + 1.0e-9;
 /// Triangles of one part (see [`Mesh::parts`](crate::render::draw::mesh::Mesh::parts)) that lie side by side in a pixel share the
 /// thresholds of the first and divide (0, 1] among them: tested each with its own, the two halves of a card
 /// would be lost together or kept together, and a whole pixel of alpha 1 could have a hole. The paper has no such rule.
-pub fn correct(fragments: &Fragments, parts: &[u32], samples: usize, thresholds: &mut [f32]) {
-    let mut pixels: Vec<Option<Covered>> = vec![None; (TILE * TILE) as usize];
+fn correct(fragments: &Fragments, parts: &[u32], samples: usize, thresholds: &mut [f32]) {
+    let mut pixels: Vec<Option<Covered>> = vec![None; PIXELS];
     // Those of the first fragments are needed as they were.
     let given = thresholds.to_vec();
     for at in 0..fragments.len() {

@@ -1,4 +1,25 @@
-//! What was likely meant: places in a text, and the known word that is nearest to a wrong one.
+//! What is wrong with a scene file, at which key, and what was likely meant.
+
+/// What is wrong, and where.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Diagnostic {
+    /// The path of the key, with the number of each table in a list from 0, as in `surface.0.card.size`.
+    pub key: String,
+    /// What is wrong, and what would be right.
+    pub message: String,
+}
+
+impl Diagnostic {
+    /// Tells a message at a key.
+    pub(in crate::render) fn new(key: impl Into<String>, message: impl Into<String>) -> Self {
+        Self { key: key.into(), message: message.into() }
+    }
+
+    /// The same at a key that is a path within a table.
+    pub(in crate::render) fn within(self, table: &str) -> Self {
+        Self { key: format!("{table}.{}", self.key), ..self }
+    }
+}
 
 /// Line and column, both from 1, of a byte.
 pub(in crate::render) fn place(text: &str, byte: usize) -> (usize, usize) {
@@ -64,24 +85,8 @@ pub(in crate::render) fn likely(wrong: &str, known: &[&str]) -> String {
 
 /// The known word with the fewest edits, if they are fewer than half of its letters.
 fn nearest<'a>(wrong: &str, known: &[&'a str]) -> Option<&'a str> {
-    let (edits, near) = known.iter().map(|near| (edits(wrong, near), *near)).min()?;
+    let (edits, near) = known.iter().map(|near| (strsim::levenshtein(wrong, near), *near)).min()?;
     (2 * edits <= near.chars().count().max(2)).then_some(near)
-}
-
-/// The number of letters to insert, delete or replace.
-fn edits(from: &str, to: &str) -> usize {
-    let to: Vec<char> = to.chars().collect();
-    let mut row: Vec<usize> = (0..=to.len()).collect();
-    for (i, a) in from.chars().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, &b) in to.iter().enumerate() {
-            let replaced = diagonal + usize::from(a != b);
-            diagonal = row[j + 1];
-            row[j + 1] = replaced.min(diagonal + 1).min(row[j] + 1);
-        }
-    }
-    row[to.len()]
 }
 
 #[cfg(test)]
@@ -112,9 +117,8 @@ mod tests {
     }
 
     #[test]
-    fn edits_are_counted() {
-        assert_eq!(edits("hasht", "hashed"), 2);
-        assert_eq!(edits("", "abc"), 3);
+    fn only_a_near_word_is_proposed() {
+        assert_eq!(nearest("hasht", &["fixed", "hashed"]), Some("hashed"));
         assert_eq!(nearest("zzz", &["fixed", "hashed"]), None);
     }
 }

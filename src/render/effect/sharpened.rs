@@ -1,0 +1,106 @@
+//! Alpha sharpened by its screen derivative before alpha to coverage (Golus 2017): "alpha to coverage" of a blurred edge
+//! spreads it over as many pixels as the texture is magnified; divided by its change from pixel to pixel, alpha rises from
+//! 0 to 1 within one pixel around a cutoff, whatever the distance.
+
+use super::kind::{About, Bound, Cost, Effect, Per, Phase, Plan, Role, Rules, Text, techniques, tell};
+use crate::render::draw::work::{Shading, Work};
+use serde::Deserialize;
+
+/// Alpha sharpened around a cutoff.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Sharpened {
+    /// The alpha at which the silhouette lies, in (0, 1]: that of the alpha test.
+    pub cutoff: f32,
+}
+
+impl Default for Sharpened {
+    fn default() -> Self {
+        Self { cutoff: 0.5 }
+    }
+}
+
+/// The least change of alpha from pixel to pixel that is divided by.
+const LEAST_WIDTH: f32 = 0.0001;
+
+/// The twin of [`sharpened`].
+const TEXT: &str = "
+// Alpha that is 1/2 at the cutoff and rises from 0 to 1 within a pixel; `width` is fwidth(alpha). Golus 2017.
+fn sharpened(alpha: f32, cutoff: f32, width: f32) -> f32 {
+    return clamp((alpha - cutoff) / max(width, 0.0001) + 0.5, 0.0, 1.0);
+}
+";
+
+impl Effect for Sharpened {
+    const ABOUT: About = About::new(
+        "Golus 2017",
+        "Sharpens alpha around a cutoff by its change from pixel to pixel, before the samples are tested",
+        "texels: three times as many, those of the pixels on the right and below beside the own",
+    )
+    .bounds(&[("cutoff", Bound::THRESHOLD)])
+    .techniques(techniques![
+        "sharpened-alpha-to-coverage": "Golus 2017", "sharpened-coverage" / "sharpened",
+            "The edges of an alpha map are one pixel wide at every scale; from afar it loses what the alpha test loses.";
+    ]);
+
+    fn rules(&self) -> Rules {
+        Rules::of(&[Role::Test]).needs(Role::Samples)
+    }
+
+    fn plan(&self, plan: &mut Plan) {
+        let cutoff = self.cutoff;
+        // Alpha is read once more at each of the two neighbours.
+        let price = [(Per::Texel, Cost::texels(2))];
+        let says = format!("sharpen alpha: around {cutoff}, over its change to the next pixels");
+        plan.setup.needs.texture_derivatives = true;
+        plan.shade(Phase::Alpha, tell(says, &price, Text::Beside(TEXT)), move |shading, work, _| {
+            sharpen(shading, work, cutoff);
+        });
+    }
+}
+
+/// Returns alpha that is 1/2 at the cutoff and rises from 0 to 1 within a pixel; `width` is its `fwidth`: the sum of its
+/// absolute changes to the next pixel on the right and to the next below.
+///
+/// A surface of one alpha has none, and is kept whole from the cutoff on.
+#[must_use]
+pub fn sharpened(alpha: f32, cutoff: f32, width: f32) -> f32 {
+    ((alpha - cutoff) / width.max(LEAST_WIDTH) + 0.5).clamp(0.0, 1.0)
+}
+
+/// Sharpens the alphas that are tested. Derivatives are differences to the alpha at the texture coordinate one pixel on along
+/// each screen axis, read at the level of the fragment, as the lanes of a quad have it.
+fn sharpen(shading: &Shading<'_>, work: &mut Work, cutoff: f32) {
+    let Work { fragments, access, alpha, tested, .. } = work;
+    for (at, tested) in tested.iter_mut().enumerate() {
+        let texture = shading.texture(fragments.triangle[at]);
+        let change = |by: glam::Vec2| {
+            let mut next = access[at];
+            next.texcoord += by;
+            (texture.alpha(&next, &mut 0) - alpha[at]).abs()
+        };
+        *tested = sharpened(alpha[at], cutoff, change(fragments.dtdx[at]) + change(fragments.dtdy[at]));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_linear_edge_becomes_one_pixel_wide_whatever_its_slope() {
+        for slope in [1e-3_f32, 0.01, 0.3] {
+            let of = |pixels: f32| sharpened(0.5 + pixels * slope, 0.5, slope);
+            for (pixels, wanted) in
+                [(0.0, 0.5), (0.25, 0.75), (-0.5, 0.0), (0.5, 1.0), (3.0, 1.0), (-3.0, 0.0)]
+            {
+                assert!((of(pixels) - wanted).abs() < 1e-4, "{slope} {pixels}: {}", of(pixels));
+            }
+        }
+    }
+
+    #[test]
+    fn what_has_one_alpha_is_kept_or_not_as_under_the_alpha_test() {
+        assert_eq!([0.0, 0.49, 0.51, 1.0].map(|alpha| sharpened(alpha, 0.5, 0.0)), [0.0, 0.0, 1.0, 1.0]);
+    }
+}
