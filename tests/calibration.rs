@@ -11,7 +11,7 @@ use hashed_alpha::check::specimen::ideal;
 use hashed_alpha::check::subject::Precision;
 use hashed_alpha::check::{Budget, Claim, Conclusion, Draw, Standing, Subject, Verdict, claims, run_claims};
 use hashed_alpha::check::{run::SUSPICION, tolerance::FAMILY_LEVEL};
-use hashed_alpha::stats::sequential::{self, Finding};
+use hashed_alpha::stats::sequential::{self, Decision};
 use hashed_alpha::stats::{binomial, ecdf};
 use hashed_alpha::threshold::robust::Join;
 use hashed_alpha::threshold::two_scale::Variant;
@@ -84,7 +84,7 @@ fn battery(run: u64) -> Result<Vec<(&'static str, f64)>, String> {
     }
     let p: Vec<f64> = found.iter().map(|&(_, p)| p).collect();
     let judged = sequential::judge(&p, 0, FAMILY_LEVEL, SUSPICION);
-    if judged.iter().any(|judgement| judgement.finding != Finding::Cleared) {
+    if judged.iter().any(|judgement| judgement.decision != Decision::Cleared) {
         retried(run, &subject, &draw)?;
     }
     Ok(found)

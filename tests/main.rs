@@ -21,6 +21,7 @@ mod oracle;
 mod prop;
 mod references;
 mod severity;
+mod stats;
 mod threads;
 
 #[cfg(feature = "shader")]

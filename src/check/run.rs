@@ -6,7 +6,7 @@ use super::results::{Results, Suite};
 use super::tolerance::FAMILY_LEVEL;
 use super::trial::{Attempt, Conclusion, Trial};
 use super::{Budget, Draw, Outcome, Subject, Verdict};
-use crate::stats::sequential::{self, Finding};
+use crate::stats::sequential::{self, Decision};
 use rayon::prelude::*;
 
 /// Corrected p-value up to which a claim is suspect and tried again with fresh inputs: one sound run in a hundred pays
@@ -71,7 +71,7 @@ pub fn run_claims(
         let mut suspect = Vec::new();
         for (index, trial) in open.into_iter().zip(trials) {
             let judgement = probability(&trial).and_then(|_| judged.next());
-            if judgement.is_some_and(|judgement| judgement.finding == Finding::Suspect) {
+            if judgement.is_some_and(|judgement| judgement.decision == Decision::Suspect) {
                 suspect.push(index);
             }
             let (subject, claim) = work[index];
@@ -108,7 +108,7 @@ fn outcome(
     judgement: Option<sequential::Judgement>,
     draw: &Draw,
 ) -> Outcome {
-    let rejected = judgement.is_some_and(|judgement| judgement.finding == Finding::Rejected);
+    let rejected = judgement.is_some_and(|judgement| judgement.decision == Decision::Rejected);
     let mut verdict = match trial.conclusion {
         Conclusion::Exact { holds: true } => Verdict::Consistent,
         Conclusion::Exact { holds: false } => Verdict::Rejected,

@@ -5,6 +5,7 @@ use clap::{Parser, Subcommand};
 use hashed_alpha::check::subject::Precision;
 use hashed_alpha::check::{Budget, Suite};
 use hashed_alpha::render::gallery::GALLERY;
+use hashed_alpha::render::scene_file::bound::LARGEST_SIDE;
 use hashed_alpha::scene::Scene;
 use hashed_alpha::shader::export::Language;
 use hashed_alpha::threshold::hash::HashKind;
@@ -417,15 +418,13 @@ fn scene_names() -> PossibleValuesParser {
     PossibleValuesParser::new(Scene::all().into_iter().map(|scene| scene.name).chain(drawn))
 }
 
-/// The largest side of an image, in pixels: that of the largest texture of a common GPU.
-const LARGEST_SIDE: u32 = 16_384;
-
 /// Reads a width and a height in pixels, as in `640x480`.
-fn resolution(text: &str) -> Result<[u32; 2], &'static str> {
+fn resolution(text: &str) -> Result<[u32; 2], String> {
     let size =
         text.split_once('x').and_then(|(width, height)| Some([width.parse().ok()?, height.parse().ok()?]));
-    size.filter(|size| size.iter().all(|side| (1..=LARGEST_SIDE).contains(side)))
-        .ok_or("write width and height in pixels like 640x480, each from 1 to 16384")
+    size.filter(|size| size.iter().all(|side| (1..=LARGEST_SIDE).contains(side))).ok_or_else(|| {
+        format!("write width and height in pixels like 640x480, each from 1 to {LARGEST_SIDE}")
+    })
 }
 
 /// Reads a size of the noise.

@@ -52,8 +52,5 @@ pub mod tails;
 pub mod two_sample;
 pub mod variance;
 
-#[cfg(test)]
-mod calibration;
-
 pub use error::StatsError;
 pub use tails::Tails;

@@ -1,6 +1,6 @@
 //! The test of tests: on an ideal source p-values are uniform.
 
-use super::ecdf;
+use hashed_alpha::stats::ecdf;
 use rand::TryRng;
 use sha2::{Digest, Sha256};
 use siphasher::sip::SipHasher24;
@@ -77,7 +77,7 @@ pub fn assert_close(actual: f64, expected: f64, relative: f64) {
 /// The test of the test of tests: p-values that are only a little too small, or not uniform, are refused.
 mod tests {
     use super::*;
-    use crate::stats::seed::uniform01;
+    use hashed_alpha::stats::seed::uniform01;
 
     #[test]
     #[should_panic(expected = "off uniform")]
