@@ -5,7 +5,7 @@ use hashed_alpha::stats::chi_square;
 use hashed_alpha::threshold::emulated::{
     Arithmetic, CoarseSine, Emulated, FlushToZero, Fused, Half, ReducedSine,
 };
-use hashed_alpha::threshold::hash::integer::Mm4;
+use hashed_alpha::threshold::hash::mm4::Mm4;
 use hashed_alpha::threshold::hash::sine::hash_2d;
 use hashed_alpha::threshold::hash::{Cell, Hash};
 use hashed_alpha::threshold::real::Real;

@@ -7,11 +7,8 @@
 //! ```
 //! use hashed_alpha::{Footprint, Robust, Variant};
 //!
-//! let footprint = Footprint::<f32> {
-//!     position: [0.31, -1.72, 2.43].into(),   // object units
-//!     dpdx: [0.0121, 0.0003, -0.0007].into(), // object units per pixel
-//!     dpdy: [0.0002, 0.0094, 0.0033].into(),
-//! };
+//! // A position in object units, and its change to the next pixel along screen x and y.
+//! let footprint = Footprint::<f32>::new([0.31, -1.72, 2.43], [0.0121, 0.0003, -0.0007], [0.0002, 0.0094, 0.0033]);
 //! let threshold = Robust::new(Variant::Isotropic).threshold(&footprint)?;
 //! let is_kept = 0.7 >= threshold;
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -38,7 +35,6 @@
 //! | feature | brings | by default |
 //! |---|---|---|
 //! | `threads` | batches on all cores | through `cli` |
-//! | `rand` | stochastic thresholds, from any generator of the crate `rand` | through `cli` |
 //! | `check` | claims, subjects, runs; statistics, techniques, costs | through `cli` |
 //! | `shader` | shader text in six languages, a reader and an interpreter of shaders | through `cli` |
 //! | `gpu` | shaders on a device | yes |
@@ -62,7 +58,7 @@
 //! | subject | a threshold on trial, from wherever: a closure, a shader, a device |
 //! | claim | a statement about thresholds with a trial that could refute it |
 //! | outcome | what a trial of one claim on one subject found |
-//! | standing | what an outcome is worth: as expected, news, or known |
+//! | standing | what an outcome is worth: as expected, against the subject, known, unanswered, not applicable |
 //! | specimen | a threshold that is broken on purpose, so that a claim is seen to reject it |
 //! | sentence | what a source says, in `docs/sentences.md`, measured |
 //! | effect | a table of a scene file, and the part of a renderer that it switches on |

@@ -8,7 +8,7 @@ use hashed_alpha::threshold::emulated::{Arithmetic, Emulated, Half};
 use hashed_alpha::threshold::footprint::Footprint;
 use hashed_alpha::threshold::hash::open_lattice;
 use hashed_alpha::threshold::real::{Real, SIN_F32_DOMAIN, exp2_f32, log2_f32, sin_f32};
-use hashed_alpha::threshold::robust::{Repairs, scales::scales};
+use hashed_alpha::threshold::robust::{Repairs, scales::robust_scales};
 use hashed_alpha::threshold::two_scale::Variant;
 use rayon::prelude::*;
 use std::ops::RangeInclusive;
@@ -310,7 +310,7 @@ fn powers_of_two_begin_an_octave<R: Real>(octaves: RangeInclusive<i32>) {
             dpdx: [side, zero, zero].into(),
             dpdy: [zero, side, zero].into(),
         };
-        let found = scales(Variant::Isotropic, &footprint, one, Repairs::ALL);
+        let found = robust_scales(Variant::Isotropic, &footprint, one, Repairs::ALL);
         assert_eq!(found.octave, [octave; 3], "{} 2^{octave}", R::NAME);
         assert_eq!(found.next_octave, [octave + 1; 3]);
         assert_eq!(found.fraction, [zero; 3], "{} 2^{octave}", R::NAME);

@@ -1,7 +1,7 @@
 //! Every group of operations against values worked out by hand, and what is refused.
 
 use hashed_alpha::shader::interpreter::{
-    Column, DeviceModel, Kind, Oddity, Open, Parameter, Program, Unsupported, Values,
+    Column, DeviceModel, Kind, Parameter, Program, Undefined, UndefinedKind, Unsupported, Values,
 };
 
 fn compile(source: &str) -> Result<Program, Unsupported> {
@@ -533,21 +533,17 @@ fn f(i: u32, d: i32) -> u32 {
     let run = || program.run(&[Column::U32(&indices), Column::I32(&divisors)], 200, &DeviceModel::ACCURATE);
     assert!(run().is_ok());
     let found = |program: &Program| -> Vec<_> {
-        let said = |oddity: &Oddity| (oddity.open, &source[oddity.span.to_range().unwrap()], oddity.lanes);
-        program
-            .oddities()
-            .iter()
-            .map(|oddity| (said(oddity).0, said(oddity).1.to_owned(), oddity.lanes))
-            .collect()
+        let said = |met: &Undefined| (met.kind, &source[met.span.to_range().unwrap()], met.lanes);
+        program.undefined().iter().map(|met| (said(met).0, said(met).1.to_owned(), met.lanes)).collect()
     };
     // Index 3 in a quarter of the lanes; 3 and 4 of the other call in a half.
-    let index = (Open::Index, "a[i]".to_owned(), 150);
-    let division = (Open::Division, "10 / d".to_owned(), 20);
+    let index = (UndefinedKind::Index, "a[i]".to_owned(), 150);
+    let division = (UndefinedKind::Division, "10 / d".to_owned(), 20);
     assert_eq!(found(&program), [index, division]);
     assert!(run().is_ok());
     assert_eq!(found(&program)[0].2, 300);
     let sound = [Column::U32(&[1]), Column::I32(&[5])];
     let fresh = compile(source).expect("it is interpreted");
     assert!(fresh.run(&sound, 200, &DeviceModel::ACCURATE).is_ok());
-    assert_eq!(fresh.oddities(), []);
+    assert_eq!(fresh.undefined(), []);
 }

@@ -15,8 +15,13 @@ mod coordinates;
 mod emulated;
 mod exhaustive;
 mod extension_claims;
+mod extension_hashes;
 mod golden;
+#[path = "sentences/mask.rs"]
+mod mask;
+mod masks;
 mod names;
+mod namesakes;
 mod oracle;
 mod prop;
 mod references;

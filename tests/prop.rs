@@ -1,5 +1,6 @@
 //! Properties that hold for every input: of the CDF, of a shift by whole cells, and of any chain of techniques.
 
+use crate::mask;
 use core::num::NonZeroU32;
 use glam::{DVec3, dvec3};
 use hashed_alpha::threshold::cdf::CdfForm;
@@ -10,7 +11,7 @@ use hashed_alpha::threshold::hashed::{HashedAlpha, SMALLEST_THRESHOLD};
 use hashed_alpha::threshold::robust::{Join, Repairs, Robust, scales};
 use hashed_alpha::threshold::stage::fade_in::fade_in;
 use hashed_alpha::threshold::stage::order::Order;
-use hashed_alpha::threshold::stage::{mask, screen_door};
+use hashed_alpha::threshold::stage::screen_door;
 use hashed_alpha::threshold::two_scale::Variant;
 use proptest::prelude::*;
 
@@ -141,7 +142,7 @@ proptest! {
     #[test]
     fn a_new_coarse_cell_is_a_new_fine_cell(here in vector(1000.0), motion in vector(0.01), octave in -4..8_i32) {
         let cells = |position: DVec3| {
-            [0, 1].map(|finer| scales::cell::<f64>(position, [octave + finer; 3], Repairs::ALL).index)
+            [0, 1].map(|finer| scales::nested_cell::<f64>(position, [octave + finer; 3], Repairs::ALL).index)
         };
         let ([coarse, fine], [coarse_after, fine_after]) = (cells(here), cells(here + motion));
         prop_assert!(coarse == coarse_after || fine != fine_after, "{here} {motion}");

@@ -177,7 +177,7 @@ fn what_is_not_asked_for_leaves_no_trace() {
         (in_frames(Order::Ascending), &["fn stratified"][..]),
         (in_frames(Order::Alternating), &["fn alternating"]),
         (in_frames(Order::VanDerCorput), &["fn radical_rank"]),
-        (in_frames(Order::VanDerCorputLiteral), &["fn radical_inverse", "fn van_der_corput"]),
+        (in_frames(Order::VanDerCorputLiteral), &["fn radical_inverse", "fn van_der_corput_literal"]),
         (in_frames(Order::PhaseRotated), &["fn rotated(", "fn entered"]),
         (door(ScreenDoor::Fixed), &["fn ordered", "fn regular"]),
         (door(ScreenDoor::RandomMask(5)), &["fn random_mask", ", 5u)"]),

@@ -8,7 +8,7 @@ use crate::shader::own::{OwnShader, ShaderError};
 use crate::threshold::two_scale::Variant;
 
 /// Puts a shader on trial in the interpreter, under the arithmetic of a device model. Its remarks are what it did that
-/// shading languages leave open ([`Program::oddities`](crate::shader::interpreter::Program::oddities)).
+/// shading languages leave open ([`Program::undefined`](crate::shader::interpreter::Program::undefined)).
 ///
 /// # Errors
 ///

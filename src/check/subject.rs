@@ -408,10 +408,10 @@ impl<'a> Subject<'a> {
 
     fn nominal_in<R: Real>(&self, footprint: &Footprint<R>) -> Nominal {
         let hash_scale = R::from_f64(self.hash_scale);
-        let found: Scales<R> = scales::scales(self.variant, footprint, hash_scale, Repairs::ALL);
+        let found: Scales<R> = scales::robust_scales(self.variant, footprint, hash_scale, Repairs::ALL);
         let grid = if self.nested_phase { Repairs::ALL } else { Repairs::ALL.without(Repair::NestedPhase) };
         let cell = |octave: [i32; 3]| {
-            let index: [R; 3] = scales::cell::<R>(footprint.position, octave, grid).index.into();
+            let index: [R; 3] = scales::nested_cell::<R>(footprint.position, octave, grid).index.into();
             DVec3::from_array(index.map(R::to_f64))
         };
         let per_unit = |octave: [i32; 3]| octave.map(|k| libm::ldexp(1.0, k));

@@ -1,9 +1,9 @@
 //! The ladder: every tier of every stage and of the whole threshold, its time beside its error and its law.
 
 use super::clock::{Contender, race};
-use super::double_double::RealSine;
-use super::law::{Evaluate, Law, Samples};
+use super::law::{Evaluate, Samples};
 use super::pool::{COARSE, Pool, SLICE, WIDE};
+use super::row::{LITERAL, ROBUST, Row, STD, Untimed, real_hash};
 use super::stages::{StageInputs, stages};
 use super::{Effort, baseline, sizes};
 use crate::threshold::batch::{Batch, Bins, ColumnBuffer, Isa, Lane, Model, Tier};
@@ -15,106 +15,6 @@ use crate::threshold::real::Real;
 use crate::threshold::robust::{Join, Robust};
 use crate::threshold::two_scale::Variant;
 use std::hint::black_box;
-
-/// One measurement.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Row {
-    /// What was evaluated: a stage, "literal" or "robust" for a whole threshold, or a point of the statistical axis.
-    pub name: &'static str,
-    /// How scales come from derivatives; "-" where there are none.
-    pub variant: &'static str,
-    /// What gives a cell its value; "-" where nothing does.
-    pub hash: &'static str,
-    /// How the hashes of two octaves become one value; "-" where there is one.
-    pub join: &'static str,
-    /// The type of the results.
-    pub precision: &'static str,
-    /// How exact sine and logarithm are: a [`Tier`], "std" for the standard library's or "double-double".
-    pub tier: &'static str,
-    /// The vector instructions; "scalar" for one value after the other.
-    pub isa: &'static str,
-    /// How many threads shared the work.
-    pub threads: usize,
-    /// The fastest round, in nanoseconds per value.
-    pub ns_min: f64,
-    /// The middle round, in nanoseconds per value.
-    pub ns_median: f64,
-    /// How many times faster than the scalar listing of the standard library in `f32`, whole thresholds as a rule,
-    /// by medians of the same run.
-    pub ratio: f64,
-    /// The share of values that have the bits of the reference semantics.
-    pub bits_equal: Option<f64>,
-    /// Sine and logarithm: the greatest distance to the exact value. Hashes and thresholds: the mean distance to
-    /// what the formula gives as a real number; 1/3 is that of two random numbers.
-    pub error: Option<f64>,
-    /// The law; thresholds only.
-    pub law: Option<Law>,
-}
-
-impl Row {
-    /// A row without a measurement.
-    pub(super) fn of_stage(
-        name: &'static str,
-        hash: &'static str,
-        precision: &'static str,
-        tier: &'static str,
-        isa: &'static str,
-    ) -> Self {
-        Self {
-            name,
-            variant: "-",
-            hash,
-            join: "-",
-            precision,
-            tier,
-            isa,
-            threads: 1,
-            ns_min: 0.0,
-            ns_median: 0.0,
-            ratio: 0.0,
-            bits_equal: None,
-            error: None,
-            law: None,
-        }
-    }
-
-    fn of_model(name: &'static str, model: &Model) -> Self {
-        let (variant, hash, join) = match model {
-            Model::Hashed(h) | Model::BeforeCdf(h) if h.variant == Variant::Single => {
-                (h.variant, h.hash, "-")
-            }
-            Model::Hashed(h) => (h.variant, h.hash, Join::Interpolate.name()),
-            Model::BeforeCdf(h) => (h.variant, h.hash, "no CDF"),
-            Model::Robust(r) => (r.variant, r.hash, r.join.name()),
-        };
-        Self { variant: variant.name(), join, ..Self::of_stage(name, hash.name(), "f32", "", "scalar") }
-    }
-
-    /// Whether the row is the one that all ratios refer to.
-    #[must_use]
-    pub fn is_baseline(&self) -> bool {
-        let key = (self.name, self.variant, self.precision, self.tier);
-        key == (LITERAL, Variant::Isotropic.name(), f32::NAME, STD)
-    }
-}
-
-/// The name of rows that are a listing to the letter.
-pub const LITERAL: &str = "literal";
-/// The name of rows that are the robust threshold.
-pub const ROBUST: &str = "robust";
-/// The tier of the standard library.
-const STD: &str = "std";
-
-/// A row that is still to be timed.
-pub(super) struct Entry<'a> {
-    pub row: Row,
-    pub contender: Contender<'a>,
-}
-
-/// What a hash is as a function of real numbers.
-pub(super) fn real_hash<R: Real>(kind: HashKind, cell: &Cell<R>) -> R {
-    if kind == HashKind::Sine { RealSine.hash(cell) } else { kind.hash(cell) }
-}
 
 /// [`real_hash`] of a kind.
 #[derive(Clone, Copy)]
@@ -128,21 +28,7 @@ impl<R: Real> Hash<R> for RealHash {
 
 /// The threshold in `f64` over hashes of real numbers.
 fn real_threshold(model: &Model, footprint: &Footprint<f64>) -> f64 {
-    let of_real = |h: &HashedAlpha| HashedAlpha {
-        hash: RealHash(h.hash),
-        variant: h.variant,
-        hash_scale: h.hash_scale,
-        form: h.form,
-    };
-    match model {
-        Model::Hashed(hashed) => of_real(hashed).threshold(footprint),
-        Model::BeforeCdf(hashed) => of_real(hashed).trace(footprint).interpolated,
-        Model::Robust(Robust { variant, hash, hash_scale, join, repairs }) => {
-            let (variant, hash_scale, join, repairs) = (*variant, *hash_scale, *join, *repairs);
-            let real = Robust { variant, hash: RealHash(*hash), hash_scale, join, repairs };
-            real.threshold(footprint).unwrap_or(f64::NAN)
-        }
-    }
+    model.with_hash(RealHash(*model.hash())).threshold(footprint)
 }
 
 /// The inputs of thresholds.
@@ -178,7 +64,7 @@ impl Judge {
     }
 
     /// A threshold in vector instructions.
-    fn batch<'a, R: Lane>(&self, name: &'static str, batch: Batch, pool: &'a Pool<R>) -> Entry<'a> {
+    fn batch<'a, R: Lane>(&self, name: &'static str, batch: Batch, pool: &'a Pool<R>) -> Untimed<'a> {
         let evaluate = move |footprints: &[Footprint<f64>]| {
             let columns: ColumnBuffer<R> = footprints.iter().map(|footprint| footprint.cast()).collect();
             let mut out = vec![R::from_f64(0.0); footprints.len()];
@@ -194,7 +80,7 @@ impl Judge {
             out[slice % SLICE].to_f64()
         };
         let touch = move |slice| pool.touch_columns(slice);
-        Entry {
+        Untimed {
             row: self.row(row, &batch.model, &evaluate),
             contender: Contender { items: SLICE, run: Box::new(run), touch: Box::new(touch) },
         }
@@ -207,7 +93,7 @@ impl Judge {
         model: Model,
         pool: &'a Pool<R>,
         threshold: impl Fn(&Footprint<R>) -> R + Copy + Sync + 'a,
-    ) -> Entry<'a> {
+    ) -> Untimed<'a> {
         let evaluate = move |footprints: &[Footprint<f64>]| {
             footprints.iter().map(|footprint| threshold(&footprint.cast()).to_f64()).collect()
         };
@@ -220,14 +106,14 @@ impl Judge {
             out[slice % SLICE].to_f64()
         };
         let touch = move |slice| pool.touch_footprints(slice);
-        Entry {
+        Untimed {
             row: self.row(row, &model, &evaluate),
             contender: Contender { items: SLICE, run: Box::new(run), touch: Box::new(touch) },
         }
     }
 
     /// Whole thresholds in every tier, and the statistical axis.
-    fn thresholds<'a>(&self, pools: &'a Pools, done: &dyn Fn()) -> Vec<Entry<'a>> {
+    fn thresholds<'a>(&self, pools: &'a Pools, done: &dyn Fn()) -> Vec<Untimed<'a>> {
         let Pools { single, double, coarse } = pools;
         let best = Isa::best();
         let exact = Tier::BitExact;
@@ -296,7 +182,7 @@ const STREAMED: usize = 1 << 21;
 /// Thresholds of footprints that are made as they are needed, on one and two threads, seen or counted in bins.
 ///
 /// No rows where threads cannot be had.
-fn streamed<'a>() -> Vec<Entry<'a>> {
+fn streamed<'a>() -> Vec<Untimed<'a>> {
     let mut entries = Vec::new();
     for threads in [1, 2] {
         for binned in [false, true] {
@@ -323,7 +209,7 @@ fn streamed<'a>() -> Vec<Entry<'a>> {
                 bins.counts()[0] as f64
             };
             let contender = Contender { items: STREAMED, run: Box::new(run), touch: Box::new(|_| 0.0) };
-            entries.push(Entry { row, contender });
+            entries.push(Untimed { row, contender });
         }
     }
     entries

@@ -24,12 +24,14 @@ pub mod effects;
 pub mod ladder;
 pub mod law;
 pub mod pool;
+pub mod row;
 pub mod sizes;
 mod stages;
 #[cfg(feature = "render")]
 pub mod techniques;
 
-pub use ladder::{Row, ladder};
+pub use ladder::ladder;
+pub use row::Row;
 
 /// How much is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,10 +1,10 @@
 //! The stages of the hash alone: sine, logarithm, hash of a cell.
 
+use super::baseline;
 use super::clock::Contender;
 use super::double_double::{DoubleDouble, RealSine};
-use super::ladder::{Entry, Row};
 use super::pool::SLICE;
-use super::{baseline, ladder};
+use super::row::{Row, Untimed, real_hash};
 use crate::stats::seed;
 use crate::threshold::batch::{Isa, Tier};
 use crate::threshold::hash::{Cell, Hash, HashKind};
@@ -57,7 +57,7 @@ impl<'a> Stage<'a> {
         isa: &'static str,
         function: impl Fn(&[f32], &mut [f64]) + 'a,
         timed: impl Fn(&[f32], &mut [f32]) + 'a,
-    ) -> Entry<'a> {
+    ) -> Untimed<'a> {
         let inputs = self.inputs;
         let mut found = vec![0.0; SLICE];
         function(&inputs[0], &mut found);
@@ -79,11 +79,11 @@ impl<'a> Stage<'a> {
             f64::from(out[slice % SLICE])
         };
         let touch = move |slice: usize| inputs[slice % inputs.len()].iter().map(|&x| f64::from(x)).sum();
-        Entry { row, contender: Contender { items: SLICE, run: Box::new(run), touch: Box::new(touch) } }
+        Untimed { row, contender: Contender { items: SLICE, run: Box::new(run), touch: Box::new(touch) } }
     }
 
     /// One value after the other, in `f32`.
-    fn scalar(&self, tier: &'static str, function: fn(f32) -> f32) -> Entry<'a> {
+    fn scalar(&self, tier: &'static str, function: fn(f32) -> f32) -> Untimed<'a> {
         let each = move |x: &[f32], out: &mut [f32]| {
             out.iter_mut().zip(x).for_each(|(out, &x)| *out = function(x));
         };
@@ -95,7 +95,7 @@ impl<'a> Stage<'a> {
         tier: &'static str,
         isa: &'static str,
         function: impl Fn(&[f32], &mut [f32]) + Copy + 'a,
-    ) -> Entry<'a> {
+    ) -> Untimed<'a> {
         let widened = move |x: &[f32], wide: &mut [f64]| {
             let mut out = vec![0.0; x.len()];
             function(x, &mut out);
@@ -105,7 +105,7 @@ impl<'a> Stage<'a> {
     }
 
     /// One value after the other, in another arithmetic.
-    fn wide(&self, precision: &'static str, function: fn(f64) -> f64) -> Entry<'a> {
+    fn wide(&self, precision: &'static str, function: fn(f64) -> f64) -> Untimed<'a> {
         let wide = move |x: &[f32], out: &mut [f64]| {
             out.iter_mut().zip(x).for_each(|(out, &x)| *out = function(f64::from(x)));
         };
@@ -117,10 +117,10 @@ impl<'a> Stage<'a> {
 }
 
 /// Every tier of every stage.
-pub(super) fn stages<'a>(inputs: &'a StageInputs) -> Vec<Entry<'a>> {
+pub(super) fn stages<'a>(inputs: &'a StageInputs) -> Vec<Untimed<'a>> {
     let sine = Stage { name: "sine", inputs: &inputs.angles, rounded: sin_f32, exact: libm::sin };
     let best = Isa::best();
-    let mut entries: Vec<Entry<'a>> = Tier::ALL
+    let mut entries: Vec<Untimed<'a>> = Tier::ALL
         .into_iter()
         .filter(|&tier| tier != Tier::BitExact)
         .map(|tier| sine.single(tier.name(), best.name(), move |x, out| best.sin_of(tier, x, out)))
@@ -164,7 +164,7 @@ fn one_by_one<'a>(
     kind: HashKind,
     tier: &'static str,
     function: impl Fn(&Cell<f32>) -> f32 + 'a,
-) -> Entry<'a> {
+) -> Untimed<'a> {
     hash(inputs, kind, tier, "scalar", move |[x, y, z], word, out| {
         for (i, out) in out.iter_mut().enumerate() {
             *out = function(&Cell { index: glam::vec3(x[i], y[i], z[i]), octave: word[i] });
@@ -178,7 +178,7 @@ fn hash<'a>(
     tier: &'static str,
     isa: &'static str,
     function: impl Fn([&[f32]; 3], &[u32], &mut [f32]) + 'a,
-) -> Entry<'a> {
+) -> Untimed<'a> {
     let columns = |slice: usize| inputs.cells[slice % inputs.cells.len()].each_ref().map(Vec::as_slice);
     let mut out = vec![0.0; SLICE];
     function(columns(0), &inputs.words, &mut out);
@@ -187,7 +187,7 @@ fn hash<'a>(
     for (i, &value) in out.iter().enumerate() {
         let cell = Cell { index: glam::vec3(x[i], y[i], z[i]), octave: inputs.words[i] };
         let rounded: f32 = kind.hash(&cell);
-        let exact: f32 = ladder::real_hash(kind, &cell);
+        let exact: f32 = real_hash(kind, &cell);
         same += usize::from(rounded.to_bits() == value.to_bits());
         error += f64::from((value - exact).abs());
     }
@@ -202,5 +202,5 @@ fn hash<'a>(
     };
     let touch =
         move |slice: usize| columns(slice).iter().flat_map(|axis| axis.iter()).map(|&x| f64::from(x)).sum();
-    Entry { row, contender: Contender { items: SLICE, run: Box::new(run), touch: Box::new(touch) } }
+    Untimed { row, contender: Contender { items: SLICE, run: Box::new(run), touch: Box::new(touch) } }
 }

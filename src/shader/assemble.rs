@@ -209,15 +209,16 @@ impl Text {
             let full_noise_lod = positive("the level of full noise", full_noise_lod)?;
             traditional("noise that fades in from another threshold than 1/2", authored)?;
             if !literal {
-                add!(self, "finite");
+                add!(self, "is_finite");
             }
             self.stable_or_literal(literal, FADE_IN);
-            let mut lod = "lod";
+            let form = if literal { "_literal" } else { "" };
+            let mut lod = "lod".to_owned();
             if anisotropy {
                 self.stable_or_literal(literal, ANISOTROPY);
-                lod = "lod * anisotropy(texel_dx, texel_dy)";
+                lod = format!("lod * anisotropy{form}(texel_dx, texel_dy)");
             }
-            stages.push(format!("fade_in(value, blend({lod}, {full_noise_lod:?}f))"));
+            stages.push(format!("fade_in{form}(value, blend{form}({lod}, {full_noise_lod:?}f))"));
         }
         Ok(stages)
     }
@@ -232,7 +233,7 @@ impl Text {
                 "order/radical_inverse",
                 "order/van_der_corput_literal"
             );
-            return format!("van_der_corput(value, frame % {n}u)");
+            return format!("van_der_corput_literal(value, frame % {n}u)");
         }
         let is_rotated = matches!(order, Order::PhaseRotated | Order::PhaseRotatedVanDerCorput);
         if is_rotated {
@@ -245,7 +246,7 @@ impl Text {
             Order::Ascending | Order::VanDerCorputLiteral => frame,
             Order::AlternatingLiteral => {
                 add!(self, "alternating_literal");
-                format!("alternating({frame}, {n}u)")
+                format!("alternating_literal({frame}, {n}u)")
             }
             Order::Alternating | Order::PhaseRotated => {
                 add!(self, "alternating");
@@ -256,7 +257,12 @@ impl Text {
                 format!("radical_rank({frame}, {n}u)")
             }
         };
-        format!("{}(value, {stratum}, {n}u)", if is_rotated { "rotated" } else { "stratified" })
+        let function = match (is_rotated, literal) {
+            (true, _) => "rotated",
+            (false, true) => "stratified_literal",
+            (false, false) => "stratified",
+        };
+        format!("{function}(value, {stratum}, {n}u)")
     }
 
     /// Adds the chunks of the samples' strata and returns the expression of their threshold.
@@ -272,13 +278,22 @@ impl Text {
             Some(1) => "0u".to_owned(),
             Some(frames) => format!("frame % {frames}u"),
         };
+        let form = if literal { "_literal" } else { "" };
         let sample = match pattern {
             SamplePattern::Regular => {
                 add!(self, "coverage_regular");
                 return Ok(format!("regular(sample_index, {n}u)"));
             }
             SamplePattern::ByPixel => {
-                add!(self, "clamp_last", "rotate", "murmur", "murmur_words", "open_lattice", "mask/pixel");
+                add!(
+                    self,
+                    "clamp_last",
+                    "rotated_left",
+                    "hash/murmur",
+                    "hash/murmur_words",
+                    "open_lattice",
+                    "mask/pixel"
+                );
                 return Ok(format!("turned(pixel_value(vec2<u32>(pixel)), sample_index, {n}u)"));
             }
             SamplePattern::Hardware => return Err(AssembleError::NoText("the samples of the hardware")),
@@ -291,17 +306,17 @@ impl Text {
             }
             SamplePattern::Decorrelated => {
                 self.stable_or_literal(literal, JITTERED);
-                add!(self, "integral_word", "pcg_4d", "fragment_words", "open_lattice", "fragment_pair");
+                add!(self, "to_word", "hash/pcg4d", "fragment_words", "open_lattice", "fragment_pair");
                 self.stable_or_literal(literal, DECORRELATED);
-                format!("decorrelated(fragment_pair(pixel, {frame}, layer), sample_index, {n}u)")
+                format!("decorrelated{form}(fragment_pair(pixel, {frame}, layer), sample_index, {n}u)")
             }
             SamplePattern::Shuffled => {
                 self.stable_or_literal(literal, JITTERED);
-                add!(self, "integral_word", "pcg_4d", "fragment_words", "pcg", "mask/shuffled");
+                add!(self, "to_word", "hash/pcg4d", "fragment_words", "hash/pcg", "mask/shuffled");
                 format!("shuffled(fragment_words(pixel, {frame}, layer).w, sample_index, {n}u)")
             }
         };
-        Ok(format!("jittered(value, {sample}, {n}u)"))
+        Ok(format!("jittered{form}(value, {sample}, {n}u)"))
     }
 
     fn stable_or_literal(&mut self, literal: bool, [stable_form, literal_form]: [&'static str; 2]) {
@@ -336,7 +351,7 @@ impl Text {
                 return Err(AssembleError::NoText("the mixture of two hashes before Eq. 2"));
             }
             Source::Stochastic => {
-                add!(self, "integral_word", "pcg_4d", "fragment_words", "stochastic");
+                add!(self, "to_word", "hash/pcg4d", "fragment_words", "stochastic");
                 "stochastic(fragment_words(pixel, frame, layer).x)".to_owned()
             }
             Source::Fixed(threshold) => {
@@ -349,12 +364,32 @@ impl Text {
                 "regular(ordered(vec2<u32>(pixel)), 16u)".to_owned()
             }
             Source::ScreenDoor(ScreenDoor::RandomMask(seed)) => {
-                add!(self, "coverage_regular", "rotate", "murmur", "murmur_words", "screen_door/random_mask");
+                add!(
+                    self,
+                    "coverage_regular",
+                    "rotated_left",
+                    "hash/murmur",
+                    "hash/murmur_words",
+                    "screen_door/random_mask"
+                );
                 format!("regular(random_mask(vec2<u32>(pixel), {seed}u), 16u)")
             }
             Source::ScreenDoor(ScreenDoor::Randomised) => {
-                add!(self, "clamp_last", "coverage_jittered", "coverage_decorrelated", "rotate", "murmur");
-                add!(self, "murmur_words", "open_lattice", "screen_door/ordered", "screen_door/randomised");
+                add!(
+                    self,
+                    "clamp_last",
+                    "coverage_jittered",
+                    "coverage_decorrelated",
+                    "rotated_left",
+                    "hash/murmur"
+                );
+                add!(
+                    self,
+                    "hash/murmur_words",
+                    "open_lattice",
+                    "screen_door/ordered",
+                    "screen_door/randomised"
+                );
                 "randomised(vec2<u32>(pixel), layer)".to_owned()
             }
             Source::Stipple { density, kept } => {
@@ -381,10 +416,10 @@ impl Text {
     }
 
     fn listing(&mut self, variant: Variant, hash: HashKind, form: CdfForm) {
-        if matches!(hash, HashKind::Sine | HashKind::SineChi2 | HashKind::Pcg3d) {
-            add!(self, "cell_plain");
-        } else {
+        if hash.reads_octave() {
             add!(self, "cell", "cell_at");
+        } else {
+            add!(self, "cell_plain");
         }
         self.hash(hash);
         add!(self, "length_of");
@@ -435,22 +470,11 @@ impl Text {
             (Join::Dithered, false) => add!(self, "robust/dithered_isotropic"),
             (Join::Dithered, true) => add!(self, "robust/dithered_anisotropic"),
         }
-        add!(self, "finite", "robust/robust");
+        add!(self, "is_finite", "robust/robust");
     }
 
     fn hash(&mut self, hash: HashKind) {
-        if !matches!(hash, HashKind::Sine | HashKind::SineChi2) {
-            add!(self, "integral_word", "open_lattice");
-        }
-        match hash {
-            HashKind::Sine => add!(self, "hash/sine", "hash/chi_1"),
-            HashKind::SineChi2 => add!(self, "hash/sine", "hash/chi_2"),
-            HashKind::Mm4 => add!(self, "rotate", "murmur", "hash/mm4"),
-            HashKind::Xxhash32 => add!(self, "rotate", "hash/xxhash32"),
-            HashKind::Pcg3d => add!(self, "hash/pcg3d"),
-            HashKind::Pcg4d => add!(self, "pcg_4d", "hash/pcg4d"),
-            HashKind::PcgNested => add!(self, "pcg", "hash/pcg_nested"),
-        }
+        self.add(hash.entry().wgsl);
     }
 
     /// Writes the function that callers call.

@@ -5,7 +5,8 @@
 //! survive in every language.
 
 use super::assemble::{AssembleError, HashScale, ShaderOptions, assemble};
-use crate::threshold::hash::{HashKind, UnknownName, by_name};
+use crate::threshold::choice::{UnknownName, by_name};
+use crate::threshold::hash::HashKind;
 use crate::threshold::hashed::HashedAlpha;
 use crate::threshold::model::Model;
 use crate::threshold::pipeline::{
@@ -21,6 +22,7 @@ use naga::{Block, EntryPoint, Function, Module, ShaderStage, Statement};
 
 /// A shading language.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Language {
     /// WGSL.
     Wgsl,
@@ -74,6 +76,7 @@ impl FromStr for Language {
 
 /// Options that cannot be said in a language.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ExportError {
     /// There is no text in any.
     #[error(transparent)]

@@ -82,7 +82,7 @@ pub fn corrected<R: Real>(threshold: R, coverage: R) -> R {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::threshold::hash::integer::murmur3;
+    use crate::threshold::hash::mm4::murmur3;
     use crate::threshold::hash::open_lattice;
 
     fn value(card: u32, which: u32) -> f64 {

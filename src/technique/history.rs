@@ -82,7 +82,7 @@ pub fn flicker_range(sequence: &[f64], weight: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::threshold::hash::integer::murmur3;
+    use crate::threshold::hash::mm4::murmur3;
     use crate::threshold::hash::open_lattice;
     use crate::threshold::stage::order::Order;
     use core::num::NonZeroU32;

@@ -1,9 +1,10 @@
 //! Hashed ambient occlusion: one ray a pixel, in a direction that stays with the geometry (§9, Fig. 8).
 
 use crate::threshold::footprint::Footprint;
-use crate::threshold::hash::integer::murmur3;
+use crate::threshold::hash::mm4::murmur3;
 use crate::threshold::hash::offset::Offset;
-use crate::threshold::hash::sine::{Sine, SineChi2};
+use crate::threshold::hash::sine::Sine;
+use crate::threshold::hash::sine_chi_2::SineChi2;
 use crate::threshold::hash::{Cell, Hash};
 use crate::threshold::hashed::HashedAlpha;
 use crate::threshold::real::Real;

@@ -4,7 +4,7 @@
 //! function, applied to the joined value, makes that value uniform again; leaving it out makes the variance of the
 //! noise breathe with distance.
 
-use super::hash::{UnknownName, by_name};
+use super::choice::{UnknownName, by_name};
 use super::real::Real;
 use core::fmt;
 use core::str::FromStr;

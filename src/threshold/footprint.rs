@@ -14,6 +14,21 @@ pub struct Footprint<R: Real> {
 }
 
 impl<R: Real> Footprint<R> {
+    /// Makes a footprint of whatever is three numbers: arrays, or vectors of this crate's glam; those of another version by
+    /// their `to_array`.
+    ///
+    /// ```
+    /// use hashed_alpha::Footprint;
+    ///
+    /// let footprint = Footprint::<f32>::new([0.31, -1.72, 2.43], [0.012, 0.0, -0.001], [0.0, 0.009, 0.003]);
+    /// assert_eq!(footprint.position, glam::vec3(0.31, -1.72, 2.43));
+    /// ```
+    #[must_use]
+    pub fn new(position: impl Into<[R; 3]>, dpdx: impl Into<[R; 3]>, dpdy: impl Into<[R; 3]>) -> Self {
+        let [position, dpdx, dpdy] = [position.into(), dpdx.into(), dpdy.into()].map(R::Vec3::from);
+        Self { position, dpdx, dpdy }
+    }
+
     /// Rounds every component to the nearest value of another precision.
     #[must_use]
     pub fn cast<S: Real>(&self) -> Footprint<S> {

@@ -7,6 +7,7 @@
 //! | [`footprint`] | position and its two screen derivatives, the inputs of Listings 1 and 2 |
 //! | [`hash`] | §5.1, §7.2.2, §9, and integer hashes that are not in the paper |
 //! | [`two_scale`] | §5.4.1, §5.4.2, Listings 1 and 2 up to `lerpFactor` |
+//! | [`listing_1`], [`listing_2`] | Listings 1 and 2 as whole functions, to read beside the paper |
 //! | [`cdf`] | Eq. 2 |
 //! | [`hashed`], [`stochastic`], [`fixed`] | where the threshold comes from: §5-6, §4, §1 |
 //! | [`model`] | any of those of which the hash has a name |
@@ -20,11 +21,14 @@
 
 pub mod batch;
 pub mod cdf;
+pub mod choice;
 pub mod emulated;
 pub mod fixed;
 pub mod footprint;
 pub mod hash;
 pub mod hashed;
+pub mod listing_1;
+pub mod listing_2;
 pub mod model;
 pub mod names;
 pub mod normal;

@@ -3,7 +3,7 @@
 //! Each function forwards to the generic one that its documentation names; domains and ranges are stated there.
 
 use super::footprint::Footprint;
-use super::hash::sine;
+use super::hash::{sine, sine_chi_2};
 use super::hashed::HashedAlpha;
 use super::two_scale::Variant;
 use super::{cdf, hash::sine::Sine};
@@ -24,10 +24,10 @@ macro_rules! entry_points {
             sine::hash_3d::<$real>(coordinates)
         }
 
-        #[doc = concat!("[`sine::hash_3d_chi_2`] in `", stringify!($real), "` (§9).")]
+        #[doc = concat!("[`sine_chi_2::hash_3d_chi_2`] in `", stringify!($real), "` (§9).")]
         #[must_use]
         pub fn $chi_2(coordinates: $vec3) -> $real {
-            sine::hash_3d_chi_2::<$real>(coordinates)
+            sine_chi_2::hash_3d_chi_2::<$real>(coordinates)
         }
 
         #[doc = concat!("[`cdf::cdf`], the stable form of Eq. 2, in `", stringify!($real), "`.")]

@@ -6,7 +6,7 @@
 use super::batch::{Batch, Columns, Lane, Tier};
 use super::cdf::CdfForm;
 use super::footprint::Footprint;
-use super::hash::{HashKind, integer::pcg4d};
+use super::hash::{HashKind, pcg4d::pcg4d};
 use super::hashed::HashedAlpha;
 use super::model::Model;
 use super::real::Real;
@@ -225,7 +225,7 @@ impl Pipeline {
             out = [self.in_frame(self.of_source(inputs, random), inputs.frame)];
         }
         if let Some(strata) = self.sample_strata {
-            let words = || self.words(inputs.pixel, inputs.frame, inputs.layer);
+            let words = || self.fragment_words(inputs.pixel, inputs.frame, inputs.layer);
             strata.thresholds(self.form, inputs.pixel, words, random, sample, &mut out);
         }
         self.finish(&mut out, || (inputs.lod, inputs.texel));
@@ -262,7 +262,7 @@ impl Pipeline {
             let reads_pixel = self.reads().pixel;
             for (at, out) in out.chunks_exact_mut(samples).enumerate() {
                 let pixel = if reads_pixel { inputs.pixel[at] } else { [0; 2] };
-                let words = || self.words(pixel, inputs.frame, inputs.layer[at]);
+                let words = || self.fragment_words(pixel, inputs.frame, inputs.layer[at]);
                 strata.thresholds(self.form, pixel, words, random, 0, out);
             }
         }
@@ -329,7 +329,7 @@ impl Pipeline {
     }
 
     /// Four words that belong to one fragment, and to its frame among those that thresholds repeat after.
-    fn words(&self, [x, y]: [u32; 2], frame: u32, layer: u32) -> [u32; 4] {
+    fn fragment_words(&self, [x, y]: [u32; 2], frame: u32, layer: u32) -> [u32; 4] {
         let frame = self.cycle().map_or(frame, |frames| (u64::from(frame) % frames) as u32);
         pcg4d([x, y, frame, layer])
     }

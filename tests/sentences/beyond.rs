@@ -1,6 +1,7 @@
 //! Other samples, stochastic transparency and the results: §9 to §12.
 
 use crate::maps::{Map, fence, leaves, noise, strands};
+use crate::mask;
 use crate::measure::{CHIS, Plane, list, listing, mean, n, percent, rms, share, value, visible};
 use crate::row::{Measured, Row, judge};
 use glam::{DVec3, vec3};
@@ -14,10 +15,10 @@ use hashed_alpha::technique::prior_work::Level;
 use hashed_alpha::technique::prior_work::scaled_alpha::{alpha_scale, scaled};
 use hashed_alpha::technique::prior_work::test_then_blend::{Layer, sorted};
 use hashed_alpha::threshold::hash::offset::Offset;
-use hashed_alpha::threshold::hash::sine::{Sine, SineChi2};
+use hashed_alpha::threshold::hash::sine::Sine;
+use hashed_alpha::threshold::hash::sine_chi_2::SineChi2;
 use hashed_alpha::threshold::hash::{Cell, Hash};
 use hashed_alpha::threshold::real::Real;
-use hashed_alpha::threshold::stage::mask;
 use hashed_alpha::threshold::stage::order::Order;
 use hashed_alpha::threshold::two_scale::Variant::{self, Anisotropic, Isotropic};
 use std::sync::OnceLock;

@@ -1,13 +1,13 @@
 //! Premultiplied colours, samples of a pixel, and screen doors: §7.3 and §8.
 
 use crate::maps::leaves;
+use crate::mask::{self, Mask};
 use crate::measure::{list, mean, n, percent, rms, share, value};
 use crate::row::{Measured, Row, judge};
 use core::num::NonZeroU32;
 use hashed_alpha::technique::premultiplied::{Rgba, divide, filtered, premultiply};
-use hashed_alpha::threshold::hash::integer::murmur3;
+use hashed_alpha::threshold::hash::mm4::murmur3;
 use hashed_alpha::threshold::stage::coverage::{decorrelated_literal, regular};
-use hashed_alpha::threshold::stage::mask::{self, Mask};
 use hashed_alpha::threshold::stage::screen_door;
 
 pub const ROWS: &[Row] = &[

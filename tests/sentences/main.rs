@@ -9,6 +9,7 @@ mod coverage;
 mod fade;
 mod hashing;
 mod maps;
+mod mask;
 mod measure;
 mod others;
 mod problem;

@@ -6,7 +6,7 @@ use hashed_alpha::check::subject::Precision;
 use hashed_alpha::check::{Draw, Outcome, Subject, Verdict, claims, run_claims};
 use hashed_alpha::technique::history::flicker_range;
 use hashed_alpha::threshold::footprint::Footprint;
-use hashed_alpha::threshold::hash::integer::murmur3;
+use hashed_alpha::threshold::hash::mm4::murmur3;
 use hashed_alpha::threshold::hash::open_lattice;
 use hashed_alpha::threshold::hashed::HashedAlpha;
 use hashed_alpha::threshold::two_scale::Variant;

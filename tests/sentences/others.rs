@@ -1,9 +1,9 @@
 //! Humus 2009 and Ols 2009.
 
+use crate::mask;
 use crate::measure::{list, mean, percent, rms, share, value};
 use crate::row::{Measured, Row, judge};
 use core::num::NonZeroU32;
-use hashed_alpha::threshold::stage::mask;
 use hashed_alpha::threshold::stage::screen_door;
 use hashed_alpha::threshold::stage::stipple::{Density, keeps, keeps_in_words, keeps_literal};
 

@@ -1,7 +1,7 @@
 //! The threshold belongs to a point of the object, wherever that point is and whoever looks.
 
 use crate::check::input::{Motion, general_scenes, placed, placement, sighting};
-use crate::check::judge::{differing, equality};
+use crate::check::judge::equality;
 use crate::check::tolerance::EXACT_POINTS;
 use crate::check::{Attempt, Claim, Draw, Promise, Subject, Trial, Verdict};
 use crate::scene::Fragment;
@@ -34,6 +34,5 @@ fn object(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
         }
     }
     let (first, second) = (subject.thresholds(&before), subject.thresholds(&after));
-    let (different, told) = differing(&before, &first, &[second]);
-    Ok(equality(before.len(), different, told, "after camera and object have moved"))
+    Ok(equality(&before, &first, &[second], "after camera and object have moved"))
 }

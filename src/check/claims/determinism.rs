@@ -1,7 +1,7 @@
 //! The threshold is a function: of the fragment alone, and of its derivatives without order or sign.
 
 use crate::check::input::fragments_everywhere;
-use crate::check::judge::{differing, equality};
+use crate::check::judge::equality;
 use crate::check::{Attempt, Claim, Draw, Promise, Subject, Trial, Verdict};
 use crate::scene::Fragment;
 use crate::threshold::footprint::Footprint;
@@ -54,8 +54,7 @@ fn two_passes(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     for (value, point) in alone.iter_mut().zip(&points).take(ALONE) {
         *value = subject.threshold(*point).unwrap_or(f64::NAN);
     }
-    let (different, first) = differing(&points, &once, &[reversed, in_pieces, alone]);
-    Ok(equality(points.len(), different, first, "in a second pass"))
+    Ok(equality(&points, &once, &[reversed, in_pieces, alone], "in a second pass"))
 }
 
 fn derivatives(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
@@ -69,6 +68,10 @@ fn derivatives(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
         with(|f| Footprint { dpdx: -f.dpdx, ..f }),
         with(|f| Footprint { dpdy: -f.dpdy, ..f }),
     ];
-    let (different, first) = differing(&points, &subject.thresholds(&points), &others);
-    Ok(equality(points.len(), different, first, "with its derivatives exchanged or turned around"))
+    Ok(equality(
+        &points,
+        &subject.thresholds(&points),
+        &others,
+        "with its derivatives exchanged or turned around",
+    ))
 }

@@ -2,7 +2,7 @@
 
 use crate::check::evidence::ComparedShare;
 use crate::check::input::{fragments_everywhere, general_scenes, placement, sighting};
-use crate::check::judge::{detectable_error, differing, equality};
+use crate::check::judge::{detectable_error, equality};
 use crate::check::predict::PairLaw;
 use crate::check::tolerance::{ALPHAS, WIDE};
 use crate::check::trial::reject_outsiders;
@@ -90,8 +90,7 @@ fn unchanging(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     // Whole periods from the first frame, as far as frames can be counted.
     let periods = FRAMES.map(|frame| frame.min(u32::MAX / subject.frames) * subject.frames);
     let [first, others @ ..] = periods.map(|frame| in_frame(subject, &points, frame));
-    let (different, told) = differing(&points, &first, &others);
-    Ok(equality(points.len(), different, told, "in another frame"))
+    Ok(equality(&points, &first, &others, "in another frame"))
 }
 
 /// Thresholds of points in general position over one period from a frame on: frame by frame.

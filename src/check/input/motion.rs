@@ -12,7 +12,7 @@ const TURN_A_FRAME: f64 = 0.02;
 /// Radians per object unit of the wave that deforms an object and weighs its bones: a quarter of a period in a unit.
 const WAVE: [f64; 3] = [1.3, 0.9, -0.7];
 
-/// What moves, a column of the table.
+/// What moves: a column of the [table of the slides](crate::check::coordinates).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Motion {
     /// The camera moves sideways.

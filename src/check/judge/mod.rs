@@ -9,6 +9,6 @@ pub mod uniformity;
 
 pub(crate) use correlations::uncorrelated;
 pub(crate) use counts::detectable_factor;
-pub(crate) use equality::{differing, equality};
+pub(crate) use equality::equality;
 pub(crate) use shares::detectable_error;
 pub(crate) use uniformity::{histogram, uniformity};

@@ -4,6 +4,7 @@ use crate::check::tolerance::{BINS, LEAST_GROUP};
 use crate::stats::chi_square::{self, ChiSquare};
 use crate::stats::histogram::Histogram;
 
+/// Counts values in [`BINS`] bins.
 pub(crate) fn histogram(values: impl IntoIterator<Item = f64>) -> Histogram {
     let mut histogram = Histogram::new(BINS);
     histogram.extend(values);

@@ -1,7 +1,7 @@
 //! How often a threshold passes alpha when the view of its point changes and the point stays where it is.
 //!
 //! The scales change, and with them the weights of the octaves, until other octaves take their place. How a point that
-//! moves changes its threshold is told by [`crate::check::pair`]. Not in the paper; for hashes that are independent and
+//! moves changes its threshold is told by [`pair_law`](super::pair_law). Not in the paper; for hashes that are independent and
 //! uniform.
 
 use super::shared_cell::copula_joint_visibility;

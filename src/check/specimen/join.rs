@@ -25,7 +25,7 @@ fn fraction(value: f64) -> f64 {
 /// A dithered threshold that draws its choice with a salt.
 fn dithered(salt: fn(&Footprint<f64>) -> i32) -> Subject<'static> {
     let mut subject = of_footprint(Precision::F64, move |found| {
-        let scales = scales::scales::<f64>(Variant::Isotropic, found, 1.0, Repairs::ALL);
+        let scales = scales::robust_scales::<f64>(Variant::Isotropic, found, 1.0, Repairs::ALL);
         let (octave, fraction) = (scales.octave[0], scales.fraction[0]);
         let coarse = cell(found.position, octave);
         if fraction > ideal_hash(coarse, salt(found)) {
@@ -106,7 +106,7 @@ pub(super) const FAMILY: &[Specimen] = &[
         claim: "continuity.octave_boundary",
         subject: || {
             of_footprint(Precision::F64, |found| {
-                let scales = scales::scales::<f64>(Variant::Isotropic, found, 1.0, Repairs::ALL);
+                let scales = scales::robust_scales::<f64>(Variant::Isotropic, found, 1.0, Repairs::ALL);
                 let (octave, t) = (scales.octave[0], scales.fraction[0]);
                 let coarse = ideal_hash(cell(found.position, octave), 0);
                 let fine = ideal_hash(cell(found.position, octave + 1), 1);
@@ -143,7 +143,7 @@ pub(super) const FAMILY: &[Specimen] = &[
         claim: "uniform.by_lerp_factor",
         subject: || {
             let mut subject = of_footprint(Precision::F64, |found| {
-                let scales = scales::scales::<f64>(Variant::Isotropic, found, 1.0, Repairs::ALL);
+                let scales = scales::robust_scales::<f64>(Variant::Isotropic, found, 1.0, Repairs::ALL);
                 let (octave, t) = (scales.octave[0], scales.fraction[0]);
                 let normal = |octave: i32| normal_quantile(ideal_hash(cell(found.position, octave), octave));
                 normal_cdf((1.0 - t) * normal(octave) + t * normal(octave + 1))

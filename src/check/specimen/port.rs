@@ -45,7 +45,7 @@ pub(super) const SOUND: Port = Port {
 
 /// The indices of the cell of an octave, between whole numbers as the robust threshold has them.
 pub(super) fn cell(position: DVec3, octave: i32) -> [f64; 3] {
-    scales::cell::<f64>(position, [octave; 3], Repairs::ALL).index.into()
+    scales::nested_cell::<f64>(position, [octave; 3], Repairs::ALL).index.into()
 }
 
 /// The same with another way of rounding than down.
@@ -75,7 +75,7 @@ impl Port {
             return None;
         }
         let read = (self.read)(fragment);
-        let found: Scales<f64> = scales::scales(Variant::Isotropic, &read, 1.0, Repairs::ALL);
+        let found: Scales<f64> = scales::robust_scales(Variant::Isotropic, &read, 1.0, Repairs::ALL);
         let (octaves, weight) = (self.octaves)(found.octave[0], found.fraction[0]);
         let hashes = octaves.map(|octave| (self.hash)((self.cell)(read.position, octave), octave));
         let joined = (self.join)(hashes, weight);

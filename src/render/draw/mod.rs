@@ -7,7 +7,7 @@
 //! | [`texture`] | what covers surfaces |
 //! | [`setup`], [`plan`], [`cost`] | how a frame is set up, what is done to it, and what that costs |
 //! | [`work`] | what one frame becomes, and one tile of it |
-//! | [`frame`], [`reference`] | a frame by a plan, and as it should be |
+//! | [`frame`], [`mod@reference`] | a frame by a plan, and as it should be |
 //! | [`rays`] | rays, and what is in their way |
 
 pub mod cost;

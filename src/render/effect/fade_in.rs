@@ -1,4 +1,4 @@
-//! Noise that fades in with distance (§7.1, Eqs. 3 to 5): [`fade_in`](crate::threshold::stage::fade_in).
+//! Noise that fades in with distance (§7.1, Eqs. 3 to 5): [`fade_in`].
 
 use super::kind::{About, Bound, Effect, Plan, Role, Rules, Text, techniques, tell};
 use crate::threshold::stage::fade_in;

@@ -1,4 +1,4 @@
-//! An exponential average of frames (§7.2, Karis 2014): [`history`](crate::technique::history).
+//! An exponential average of frames (§7.2, Karis 2014): [`history`].
 
 use super::kind::{About, Bound, Cost, Effect, Per, Plan, Role, Rules, Text, techniques, tell};
 use crate::render::draw::plan::Moment;

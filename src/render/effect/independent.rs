@@ -45,15 +45,16 @@ impl Effect for Independent {
         let Some(Source::Hash(model)) = plan.setup.pipeline.map(|pipeline| pipeline.source) else {
             return Ok(());
         };
-        match (self.by, model.hash()) {
-            (IndependentBy::Word, HashKind::Sine | HashKind::SineChi2 | HashKind::Pcg3d) => {
-                Err(Diagnostic::new(
-                    "by",
-                    "`independent.by` = \"word\" needs a hash that reads the word: mm4, xxhash32, pcg4d or pcg-nested",
-                ))
-            }
-            (IndependentBy::Word | IndependentBy::Offset, _) => Ok(()),
+        if self.by == IndependentBy::Offset || model.hash().reads_octave() {
+            return Ok(());
         }
+        let known: Vec<_> =
+            HashKind::ALL.into_iter().filter(|hash| hash.reads_octave()).map(HashKind::name).collect();
+        let needs = format!(
+            "`independent.by` = \"word\" needs a hash that reads the word: one of {}",
+            known.join(", ")
+        );
+        Err(Diagnostic::new("by", needs))
     }
 
     fn plan(&self, plan: &mut Plan) {

@@ -1,6 +1,6 @@
 //! The effects that a scene can call for: one optional table each, one file each, and the scenes that show them.
 //!
-//! A new effect is a file here, which implements [`Effect`](kind::Effect), a scene beside those of
+//! A new effect is a file here, which implements [`Effect`], a scene beside those of
 //! [`gallery`](super::gallery), and their lines in the lists below.
 
 pub mod alpha_to_coverage;

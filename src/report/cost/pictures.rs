@@ -1,7 +1,8 @@
 //! Which pictures a measurement has.
 
 use crate::cost::Row;
-use crate::cost::ladder::{LITERAL, statistical_axis};
+use crate::cost::ladder::statistical_axis;
+use crate::cost::row::LITERAL;
 use crate::cost::sizes::Size;
 use crate::report::figure::front::{Point, front};
 use crate::report::figure::growth::{Growth, growth};

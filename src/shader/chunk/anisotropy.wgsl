@@ -1,7 +1,7 @@
 // The degree of anisotropy of a texture access whose screen derivatives have these lengths, in [1, 16]; what is no
 // length counts as none. Section 7.1.1.
 fn anisotropy(first: f32, second: f32) -> f32 {
-    if !(is_finite_number(first) && is_finite_number(second)) {
+    if !(is_finite(first) && is_finite(second)) {
         return 1.0;
     }
     let longer = max(first, second);

@@ -1,6 +1,6 @@
 // The share of noise at a level of detail, in [0, 1]: 0 up to level 0, (lod / n)^2 below n, 1 from n on. Eq. 5.
 fn blend(lod: f32, n: f32) -> f32 {
-    if !is_finite_number(lod) || lod <= 0.0 {
+    if !is_finite(lod) || lod <= 0.0 {
         // Minus infinity and NaN are no level; plus infinity is beyond every n.
         return select(0.0, 1.0, bitcast<u32>(lod) == 0x7f800000u);
     }

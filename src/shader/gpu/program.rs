@@ -88,7 +88,7 @@ fn every_element(@builtin(global_invocation_id) invocation: vec3u) {{
 /// WGSL function of the same name.
 #[must_use]
 pub fn drawn_word(seed: u32, index: u32, k: u32) -> u32 {
-    use crate::threshold::hash::integer::pcg;
+    use crate::threshold::hash::pcg_nested::pcg;
     pcg(k.wrapping_add(pcg(index.wrapping_add(pcg(seed)))))
 }
 

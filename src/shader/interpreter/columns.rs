@@ -1,6 +1,6 @@
 //! What goes into a run and what comes out: one value a lane.
 
-use super::machine;
+use super::lanes;
 use core::fmt;
 
 /// What a scalar is.
@@ -70,7 +70,7 @@ impl Column<'_> {
     }
 
     /// Copies the values from lane `start` on; lanes beyond the last one repeat it.
-    pub(super) fn load(&self, start: usize, lanes: usize, to: &machine::Column) {
+    pub(super) fn load(&self, start: usize, lanes: usize, to: &lanes::Column) {
         match self {
             Self::F32(values) => load(values, start, lanes, to, |value: f32| value.to_bits()),
             Self::I32(values) => load(values, start, lanes, to, |value| value as u32),
@@ -80,7 +80,7 @@ impl Column<'_> {
     }
 }
 
-fn load<T: Copy>(values: &[T], start: usize, lanes: usize, to: &machine::Column, word: impl Fn(T) -> u32) {
+fn load<T: Copy>(values: &[T], start: usize, lanes: usize, to: &lanes::Column, word: impl Fn(T) -> u32) {
     let values = if values.len() == 1 { values } else { &values[start..lanes] };
     let Some(&last) = values.last() else { return };
     let padded = values.iter().copied().chain(core::iter::repeat(last));

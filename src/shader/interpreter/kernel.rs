@@ -5,11 +5,12 @@
 //! zero and saturates, NaN becomes 0. Integers wrap; `x / 0` is `x`, `x % 0` is 0; a shift takes the distance modulo
 //! 32. Truth is all bits set.
 
-use super::machine::{Column, LANES, Lanes};
+use super::lanes::{Column, LANES, Lanes};
 use super::model::DeviceModel;
 use super::op::{Binary, Unary};
+use crate::threshold::batch::Isa;
+use crate::threshold::batch::block::Block;
 use crate::threshold::batch::slices::{exp2_block, log2_block, sin_block};
-use crate::threshold::batch::{Block, Isa};
 use crate::threshold::emulated::{Arithmetic, Half};
 use crate::threshold::real::Real;
 use core::cell::Cell;

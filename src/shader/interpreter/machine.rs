@@ -6,22 +6,13 @@
 //! outlives a choice, a variable, is written under the mask.
 
 use super::kernel;
+use super::lanes::{Column, LANES, Lanes};
 use super::model::DeviceModel;
 use super::op::{Block, Case, Op, Register, Step};
-use crate::threshold::batch::{BLOCK, Isa, isa::Job};
+use crate::threshold::batch::{Isa, isa::Job};
 use core::cell::Cell;
 use core::sync::atomic::{AtomicU64, Ordering};
 use naga::Span;
-
-/// Lanes of a block.
-pub(super) const LANES: usize = BLOCK;
-
-/// A set of lanes.
-pub(super) type Lanes = u128;
-const _: () = assert!(LANES == Lanes::BITS as usize, "one bit a lane");
-
-/// One word a lane.
-pub(super) type Column = [Cell<u32>; LANES];
 
 /// A loop that ran when the steps were used up: the one with the most rounds of those around that point.
 #[derive(Clone, Copy, Debug)]
@@ -34,7 +25,7 @@ pub(super) struct Endless {
 pub(super) struct Machine<'a> {
     pub(super) registers: Vec<Column>,
     model: &'a DeviceModel,
-    /// How many lanes every oddity has been seen in, by all threads.
+    /// How many lanes every undefined behaviour has been seen in, by all threads.
     counts: &'a [AtomicU64],
     /// The lanes that are asked for; those behind the last one repeat it.
     pub(super) wanted: Lanes,
@@ -208,10 +199,10 @@ impl<'a> Machine<'a> {
                     column(register)[lane].set(column(from)[lane].get());
                 }
             }
-            Op::Count { odd, oddity } => {
+            Op::Count { odd, met } => {
                 let lanes = kernel::lanes(column(odd), |word| word) & active & self.wanted;
                 if lanes != 0 {
-                    self.counts[oddity].fetch_add(u64::from(lanes.count_ones()), Ordering::Relaxed);
+                    self.counts[met].fetch_add(u64::from(lanes.count_ones()), Ordering::Relaxed);
                 }
             }
         }

@@ -31,7 +31,7 @@
 //! from the others, as [`Real`](crate::threshold::real::Real) does. `fract` is `x - floor(x)` and can be 1. `fma`
 //! rounds once. `pow` of a negative number is NaN. Sums run from left to right. Of integers `x / 0` is `x`, `x % 0`
 //! is 0, overflow wraps, and a shift takes the distance modulo 32. Lanes with an index out of range, or an integer that is
-//! divided by zero, are counted ([`Program::oddities`]).
+//! divided by zero, are counted ([`Program::undefined`]).
 //!
 //! **It ends**: a block of lanes has a number of steps ([`Program::steps`]); a loop that uses them up stops the run
 //! and is named ([`Stopped::Endless`]).
@@ -40,60 +40,26 @@ mod columns;
 mod compile;
 mod error;
 mod kernel;
+mod lanes;
 mod machine;
 mod model;
-mod oddity;
 mod op;
+mod program;
+mod undefined;
 
 pub use columns::{Column, Kind, Values};
 pub use error::{Stopped, Unsupported};
 pub use model::DeviceModel;
-pub use oddity::{Oddity, Open};
+pub use program::{Parameter, Program};
+pub use undefined::{Undefined, UndefinedKind};
 
 use core::ops::Not;
-use core::sync::atomic::{AtomicU64, Ordering};
-use machine::{LANES, Machine};
+use core::sync::atomic::Ordering;
+use lanes::{LANES, Lanes};
+use machine::Machine;
+use naga::Module;
 use naga::valid::ModuleInfo;
-use naga::{Module, Span};
-use op::{Block, Register};
 use rayon::prelude::*;
-use std::sync::Arc;
-
-/// A function that is ready to run.
-#[derive(Clone, Debug)]
-pub struct Program {
-    /// The most operations and rounds of loops that a block of 128 lanes may take in one run.
-    pub steps: u64,
-    parameters: Vec<Parameter>,
-    result: Vec<Kind>,
-    /// The registers of all scalars of all parameters in order, and of the result.
-    arguments: Vec<Register>,
-    results: Vec<Register>,
-    constants: Vec<(Register, Constant)>,
-    body: Block,
-    registers: usize,
-    /// What can happen where, and in how many lanes it did; clones count together.
-    oddities: Vec<(Open, Span)>,
-    counts: Arc<[AtomicU64]>,
-}
-
-/// A parameter of a function.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Parameter {
-    /// Its name in the source.
-    pub name: String,
-    /// Its scalars: the components of a vector, the columns of a matrix, the members of a structure one after the
-    /// other.
-    pub components: Vec<Kind>,
-}
-
-/// A word that is the same in all lanes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-struct Constant {
-    bits: u32,
-    /// Whether a device rounds it.
-    float: bool,
-}
 
 impl Program {
     /// The steps of a new program: a thousand times those of a listing, a few hundredths of a second.
@@ -121,13 +87,13 @@ impl Program {
 
     /// Returns what all runs so far met that the shading languages leave open, in the order of the function.
     #[must_use]
-    pub fn oddities(&self) -> Vec<Oddity> {
-        let found = self.oddities.iter().zip(&*self.counts).map(|(&(open, span), count)| Oddity {
-            open,
+    pub fn undefined(&self) -> Vec<Undefined> {
+        let found = self.undefined.iter().zip(&*self.counts).map(|(&(kind, span), count)| Undefined {
+            kind,
             span,
             lanes: count.load(Ordering::Relaxed),
         });
-        found.filter(|oddity| oddity.lanes > 0).collect()
+        found.filter(|met| met.lanes > 0).collect()
     }
 
     /// Runs the function on lanes `0..lanes` and returns one column a scalar of the result.
@@ -155,7 +121,7 @@ impl Program {
                 }
             }
             let beyond = LANES.saturating_sub(lanes - block * LANES);
-            machine.wanted = machine::Lanes::MAX >> beyond;
+            machine.wanted = Lanes::MAX >> beyond;
             machine.run(&self.body, self.steps)?;
             for (&register, words) in self.results.iter().zip(words) {
                 for (word, lane) in words.iter_mut().zip(machine.column(register)) {

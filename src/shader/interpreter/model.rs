@@ -1,6 +1,6 @@
 //! The arithmetic under which a shader runs: that of the reference, or one that a device may have.
 
-use super::machine::Column;
+use super::lanes::Column;
 use crate::threshold::batch::{Isa, isa::Job};
 use crate::threshold::emulated::{Arithmetic, CoarseSine, FlushToZero, Fused, Half, ReducedSine, Single};
 

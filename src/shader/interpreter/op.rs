@@ -207,10 +207,10 @@ pub(super) enum Op {
         offset: Register,
         from: Register,
     },
-    /// Counts the active lanes where `odd` is true, for the oddity of that index.
+    /// Counts the active lanes where `odd` is true, for the undefined behaviour of that index.
     Count {
         odd: Register,
-        oddity: usize,
+        met: usize,
     },
 }
 

@@ -4,17 +4,18 @@
 //! engines write it, see the list in `glsl/prepare.rs`. SPIR-V is read so that what is exported can be read back. Of a module
 //! only the function and what it calls is kept; uniforms and overrides that it reads get the values that the user gives.
 
+mod arguments;
 mod blocks;
 mod body;
 mod derivative;
 mod error;
-mod feed;
 mod front;
 mod glsl;
 mod invalid;
 mod isolated;
 mod language;
 mod nesting;
+mod options;
 mod pointers;
 mod reduce;
 mod scan;
@@ -26,6 +27,7 @@ mod wgsl;
 pub use error::{Place, ShaderError};
 pub use isolated::READER;
 pub use language::Language;
+pub use options::Options;
 pub use setting::{Constant, Value};
 pub use signature::{Binding, Input};
 
@@ -34,27 +36,11 @@ use error::Fault;
 use isolated::isolated;
 use naga::valid::ModuleInfo;
 use naga::{Module, Span};
-use std::collections::BTreeMap;
 use std::io::Read;
 use std::path::Path;
 
 /// The largest file that is read.
 pub const LARGEST_FILE: u64 = 4 << 20;
-
-/// What is asked of a file.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Options {
-    /// Name of the function.
-    pub function: String,
-    /// Values by name, as written: parameters, uniforms and overrides.
-    pub settings: BTreeMap<String, String>,
-}
-
-impl Default for Options {
-    fn default() -> Self {
-        Self { function: "threshold".to_owned(), settings: BTreeMap::new() }
-    }
-}
 
 /// A user's threshold, ready to run.
 #[derive(Clone, Debug)]

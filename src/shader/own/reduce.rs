@@ -3,10 +3,10 @@
 use super::error::Fault;
 use super::front::Front;
 use super::invalid::{self, validate, validate_plain};
+use super::options::Options;
 use super::signature::{self, Binding};
 use super::variables::{fill_uniforms, overrides, refuse_resources, refuse_undefined};
-use super::{Options, derivative};
-use super::{blocks, pointers};
+use super::{blocks, derivative, pointers};
 use naga::back::pipeline_constants::{PipelineConstantError, process_overrides};
 use naga::valid::ModuleInfo;
 use naga::{Block, EntryPoint, Expression, Function, Handle, Module, ShaderStage, Span, Statement};

@@ -47,7 +47,7 @@ fn share(part: usize, whole: usize) -> f64 {
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
-    use crate::threshold::hash::integer::murmur3;
+    use crate::threshold::hash::mm4::murmur3;
     use crate::threshold::hash::open_lattice;
 
     /// A square map and its side.

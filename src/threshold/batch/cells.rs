@@ -1,24 +1,23 @@
 //! From octaves to cells, and from cells to hashes, block by block.
 
+use super::block::{BLOCK, Block};
 use super::columns::BlockColumns;
 use super::lane::Kernel;
 use super::plan::Plan;
-use super::{BLOCK, Block, Tier};
-use crate::threshold::hash::sine::hash_2d_by;
-use crate::threshold::hash::{HashKind, integer, octave_word};
+use super::tier::Tier;
+use crate::threshold::hash::{self, HashKind, OfBlocks, octave_word};
 
 /// The cells of a block.
 pub(super) struct Cells<R> {
     pub index: [Block<R>; 3],
     pub word: Block<u32>,
-    inner: Block<R>,
 }
 
 impl<R: Kernel> Cells<R> {
     #[inline(always)]
     pub fn new() -> Self {
         let zeros = [R::from_f64(0.0); BLOCK];
-        Self { index: [zeros; 3], word: [0; BLOCK], inner: zeros }
+        Self { index: [zeros; 3], word: [0; BLOCK] }
     }
 
     /// Finds the cells of given octaves, of one for all axes or of one an axis.
@@ -74,40 +73,24 @@ impl<R: Kernel> Cells<R> {
     /// Hashes the cells.
     #[inline(always)]
     pub fn hash<const FUSED: bool>(&mut self, kind: HashKind, tier: Tier, out: &mut Block<R>) {
-        match kind {
-            HashKind::Sine | HashKind::SineChi2 => match tier {
-                Tier::Coarse => self.hash_sine(kind, R::sine_coarse, out),
-                Tier::Fast => self.hash_sine(kind, R::sine_fast, out),
-                Tier::TwoUlp => self.hash_sine(kind, R::sine_two_ulp, out),
-                Tier::BitExact => self.hash_sine(kind, R::sine::<FUSED>, out),
-            },
-            HashKind::Mm4 => self.hash_words(integer::Mm4::word, out),
-            HashKind::Xxhash32 => self.hash_words(integer::Xxhash32::word, out),
-            HashKind::Pcg3d => self.hash_words(integer::Pcg3d::word, out),
-            HashKind::Pcg4d => self.hash_words(integer::Pcg4d::word, out),
-            HashKind::PcgNested => self.hash_words(integer::PcgNested::word, out),
+        macro_rules! by_kind {
+            ($($kind:ident = $file:ident, $doc:literal;)*) => {
+                match kind {
+                    $(HashKind::$kind => self.hash_by::<hash::$file::$kind, FUSED>(tier, out),)*
+                }
+            };
         }
-    }
-
-    /// Nests the hash of two coordinates: (x, y) then z, or (y, z) then x in the first place.
-    #[inline(always)]
-    fn hash_sine(&mut self, kind: HashKind, sine: impl Fn(R) -> R + Copy, out: &mut Block<R>) {
-        let [x, y, z] = &self.index;
-        let (first, second) = if kind == HashKind::Sine { (x, y) } else { (y, z) };
-        for i in 0..BLOCK {
-            self.inner[i] = hash_2d_by(sine, first[i], second[i]);
-        }
-        let (first, second) = if kind == HashKind::Sine { (&self.inner, z) } else { (x, &self.inner) };
-        for i in 0..BLOCK {
-            out[i] = hash_2d_by(sine, first[i], second[i]);
-        }
+        hash::hashes!(by_kind);
     }
 
     #[inline(always)]
-    fn hash_words(&self, word: impl Fn([u32; 4]) -> u32, out: &mut Block<R>) {
-        let [x, y, z] = &self.index;
-        for i in 0..BLOCK {
-            out[i] = R::lattice(word([x[i].word(), y[i].word(), z[i].word(), self.word[i]]));
+    fn hash_by<H: OfBlocks, const FUSED: bool>(&self, tier: Tier, out: &mut Block<R>) {
+        let (index, word) = (&self.index, &self.word);
+        match tier {
+            Tier::Coarse => H::block(R::sine_coarse, index, word, out),
+            Tier::Fast => H::block(R::sine_fast, index, word, out),
+            Tier::TwoUlp => H::block(R::sine_two_ulp, index, word, out),
+            Tier::BitExact => H::block(R::sine::<FUSED>, index, word, out),
         }
     }
 }

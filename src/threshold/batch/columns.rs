@@ -1,6 +1,6 @@
 //! Footprints as a structure of arrays.
 
-use super::Block;
+use super::block::Block;
 use crate::threshold::footprint::Footprint;
 use crate::threshold::real::Real;
 

@@ -2,15 +2,16 @@
 //!
 //! Every choice is made outside the loops, and every loop stands here once: a hash is one loop whatever is joined.
 
+use super::block::{BLOCK, Block};
 use super::cells::Cells;
 use super::columns::{BlockColumns, Columns};
 use super::isa::Job;
 use super::lane::Kernel;
 use super::octaves::{Octaves, is_plain, longest_derivative, reaches};
 use super::plan::Plan;
-use super::{BLOCK, Block, Model};
 use crate::threshold::cdf::{CdfForm, minor_weight};
 use crate::threshold::hash::octave_word;
+use crate::threshold::model::Model;
 use crate::threshold::normal::{normal_cdf, normal_quantile};
 use crate::threshold::real::Real;
 use crate::threshold::robust::Join;

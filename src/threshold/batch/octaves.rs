@@ -1,9 +1,10 @@
 //! From footprints to octaves, block by block: the first half of both listings.
 
+use super::block::{BLOCK, Block};
 use super::columns::BlockColumns;
 use super::lane::Kernel;
 use super::plan::Plan;
-use super::{BLOCK, Block, Tier};
+use super::tier::Tier;
 use crate::threshold::real::Real;
 use crate::threshold::robust::scales::floored;
 

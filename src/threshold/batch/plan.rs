@@ -1,10 +1,11 @@
 //! What is evaluated, as the loops want it: every choice made once, every constant computed once.
 
 use super::lane::Kernel;
-use super::{Model, Tier};
+use super::tier::Tier;
 use crate::threshold::cdf::CdfForm;
 use crate::threshold::hash::HashKind;
 use crate::threshold::hashed::{HashedAlpha, SMALLEST_THRESHOLD};
+use crate::threshold::model::Model;
 use crate::threshold::real::Real;
 use crate::threshold::robust::{Join, Repair, Robust, SMALLEST_ROBUST_THRESHOLD, scales::side_bounds};
 use crate::threshold::two_scale::Variant;
@@ -89,10 +90,10 @@ impl<R: Kernel> Plan<R> {
 
     /// The largest coordinate of a cell that the loops can hash.
     pub fn largest_cell(&self) -> R {
-        match self.hash {
-            HashKind::Sine | HashKind::SineChi2 if self.tier == Tier::BitExact => R::LARGEST_SINE,
-            HashKind::Sine | HashKind::SineChi2 => R::LARGEST_FAST_SINE,
-            _ => R::LARGEST_WORD,
+        match (self.hash.entry().is_exact, self.tier) {
+            (true, _) => R::LARGEST_WORD,
+            (false, Tier::BitExact) => R::LARGEST_SINE,
+            (false, Tier::TwoUlp | Tier::Fast | Tier::Coarse) => R::LARGEST_FAST_SINE,
         }
     }
 

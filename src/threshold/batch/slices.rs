@@ -1,9 +1,10 @@
 //! The stages of the listings over whole slices: sine, logarithm, hash.
 
+use super::block::{BLOCK, Block};
 use super::cells::Cells;
 use super::isa::{Isa, Job};
 use super::lane::Kernel;
-use super::{BLOCK, Block, Tier};
+use super::tier::Tier;
 use crate::threshold::hash::HashKind;
 use crate::threshold::real::{SIN_F32_DOMAIN, log2_everywhere, sin_f32, sin_in_domain};
 

@@ -1,6 +1,7 @@
 //! Any number of thresholds on every core (one after the other without the feature `threads`), without holding more of them than fit the second cache.
 
-use super::{Batch, ColumnBuffer, Columns, Lane};
+use super::columns::{ColumnBuffer, Columns};
+use super::evaluator::{Batch, Lane};
 #[cfg(feature = "threads")]
 use rayon::prelude::*;
 

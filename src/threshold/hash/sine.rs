@@ -1,6 +1,9 @@
-//! The paper's hash (§5.1, after McGuire's Graphics Codex), and the second hash of §9.
+//! The paper's hash (§5.1, after McGuire's Graphics Codex).
 
-use super::{Cell, Hash};
+use super::cell::{Cell, Hash};
+use super::listed::{Listed, OfBlocks};
+use crate::threshold::batch::block::Block;
+use crate::threshold::batch::lane::Kernel;
 use crate::threshold::real::Real;
 
 /// Hashes two coordinates: the fractional part of 1e4 sin(17 x + 0.1 y) (0.1 + |sin(13 y + x)|).
@@ -31,15 +34,6 @@ pub fn hash_3d<R: Real>(coordinates: R::Vec3) -> R {
     hash_2d(hash_2d(x, y), z)
 }
 
-/// Hashes three coordinates by hashing the first with the hash of the last two (chi_2 of §9).
-///
-/// Domain and range are those of [`hash_2d`].
-#[must_use]
-pub fn hash_3d_chi_2<R: Real>(coordinates: R::Vec3) -> R {
-    let [x, y, z] = coordinates.into();
-    hash_2d(x, hash_2d(y, z))
-}
-
 /// [`hash_3d`] of the cell's coordinates; does not read the octave, as in Listings 1 and 2.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Sine;
@@ -50,15 +44,36 @@ impl<R: Real> Hash<R> for Sine {
     }
 }
 
-/// [`hash_3d_chi_2`] of the cell's coordinates; does not read the octave.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct SineChi2;
-
-impl<R: Real> Hash<R> for SineChi2 {
-    fn hash(&self, cell: &Cell<R>) -> R {
-        hash_3d_chi_2(cell.index)
+impl OfBlocks for Sine {
+    #[inline(always)]
+    fn block<R: Kernel>(
+        sine: impl Fn(R) -> R + Copy,
+        [x, y, z]: &[Block<R>; 3],
+        _: &Block<u32>,
+        out: &mut Block<R>,
+    ) {
+        for i in 0..out.len() {
+            out[i] = hash_2d_by(sine, x[i], y[i]);
+        }
+        for i in 0..out.len() {
+            out[i] = hash_2d_by(sine, out[i], z[i]);
+        }
     }
 }
+
+/// What the list of hashes says of it.
+pub(crate) const ENTRY: Listed = Listed {
+    name: "sine",
+    reads_octave: false,
+    is_exact: false,
+    #[cfg(feature = "shader")]
+    wgsl: &[
+        include_str!("../../shader/chunk/hash/sine.wgsl"),
+        include_str!("../../shader/chunk/hash_cell/sine.wgsl"),
+    ],
+    #[cfg(feature = "gpu")]
+    mistake: ["1.0e4", "1.0"],
+};
 
 #[cfg(test)]
 mod tests {

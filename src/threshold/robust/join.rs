@@ -7,9 +7,10 @@
 //! | [`Join::Dithered`] | 2 of 3, 1 and 3 of one dimension | by construction | each cell switches once an octave |
 
 use super::repairs::{Repair, Repairs};
-use super::scales::{Scales, cell, corner_weight};
+use super::scales::{Scales, corner_weight, nested_cell};
 use crate::threshold::cdf::{cdf, cdf_literal};
-use crate::threshold::hash::{Cell, Hash, UnknownName, by_name};
+use crate::threshold::choice::{UnknownName, by_name};
+use crate::threshold::hash::{Cell, Hash};
 use crate::threshold::normal::{normal_cdf, normal_quantile};
 use crate::threshold::real::Real;
 use crate::threshold::two_scale::Variant;
@@ -18,6 +19,7 @@ use core::str::FromStr;
 
 /// A way of joining the hashes of two octaves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Join {
     /// The paper's: a linear mixture, made uniform by Eq. 2.
     Interpolate,
@@ -84,7 +86,7 @@ pub struct Joined<R: Real> {
 }
 
 /// Joins the hashes of the cells around `position`.
-pub(super) fn join<R: Real, H: Hash<R>>(
+pub(super) fn joined<R: Real, H: Hash<R>>(
     join: Join,
     variant: Variant,
     hash: &H,
@@ -92,24 +94,22 @@ pub(super) fn join<R: Real, H: Hash<R>>(
     scales: &Scales<R>,
     repairs: Repairs,
 ) -> Joined<R> {
-    let coarse = cell(position, scales.octave, repairs);
-    let fine = cell(position, scales.next_octave, repairs);
+    let coarse = nested_cell(position, scales.octave, repairs);
+    let fine = nested_cell(position, scales.next_octave, repairs);
     let (hash_coarse, hash_fine) = (hash.hash(&coarse), hash.hash(&fine));
-    let one = R::from_f64(1.0);
     let anisotropic = variant == Variant::Anisotropic;
     let (lerp_factor, interpolated, uniform) = match join {
         Join::Interpolate => {
             let weight = if anisotropic { corner_weight(scales.fraction) } else { scales.fraction[0] };
-            let mixture = (one - weight) * hash_coarse + weight * hash_fine;
-            let law = if repairs.contains(Repair::StableCdf) { cdf } else { cdf_literal };
-            ([weight; 3], mixture, law(mixture, weight))
+            let (mixture, uniform) = interpolated(hash_coarse, hash_fine, weight, repairs);
+            ([weight; 3], mixture, uniform)
         }
         Join::Copula => {
             let normal = if anisotropic {
                 let corner = |fine: [bool; 3]| {
                     let octave = [0, 1, 2]
                         .map(|axis| if fine[axis] { scales.next_octave[axis] } else { scales.octave[axis] });
-                    hash.hash(&cell(position, octave, repairs))
+                    hash.hash(&nested_cell(position, octave, repairs))
                 };
                 trilinear(scales.fraction.map(R::to_f64), hash_coarse, hash_fine, corner)
             } else {
@@ -121,22 +121,26 @@ pub(super) fn join<R: Real, H: Hash<R>>(
         Join::Dithered => {
             let octave = if anisotropic {
                 [0, 1, 2].map(|axis| {
-                    let choice = hash.hash(&interval(&coarse, axis, scales.octave[axis]));
-                    if scales.fraction[axis] > choice {
-                        scales.next_octave[axis]
-                    } else {
-                        scales.octave[axis]
-                    }
+                    let takes_fine =
+                        takes_fine(hash, &coarse, axis, scales.octave[axis], scales.fraction[axis]);
+                    if takes_fine { scales.next_octave[axis] } else { scales.octave[axis] }
                 })
             } else {
                 let choice = hash.hash(&Cell { octave: coarse.octave ^ CHOICE, ..coarse });
                 if scales.fraction[0] > choice { scales.next_octave } else { scales.octave }
             };
-            let chosen = hash.hash(&cell(position, octave, repairs));
+            let chosen = hash.hash(&nested_cell(position, octave, repairs));
             (scales.fraction, chosen, chosen)
         }
     };
     Joined { lerp_factor, hash_coarse, hash_fine, interpolated, uniform }
+}
+
+/// Mixes two hashes, and makes the mixture uniform by Eq. 2.
+fn interpolated<R: Real>(coarse: R, fine: R, weight: R, repairs: Repairs) -> (R, R) {
+    let mixture = (R::from_f64(1.0) - weight) * coarse + weight * fine;
+    let law = if repairs.contains(Repair::StableCdf) { cdf } else { cdf_literal };
+    (mixture, law(mixture, weight))
 }
 
 /// Tells the words of the choosing hash from those of cells.
@@ -148,6 +152,11 @@ fn interval<R: Real>(coarse: &Cell<R>, axis: usize, octave: i32) -> Cell<R> {
     let index: [R; 3] = coarse.index.into();
     let alone = [index[axis], zero, zero];
     Cell { index: alone.into(), octave: interval_word(axis, octave) }
+}
+
+/// Whether an axis takes its finer octave: chosen by the hash of its interval.
+fn takes_fine<R: Real>(hash: &impl Hash<R>, coarse: &Cell<R>, axis: usize, octave: i32, fraction: R) -> bool {
+    fraction > hash.hash(&interval(coarse, axis, octave))
 }
 
 /// The word of such an interval.

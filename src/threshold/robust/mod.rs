@@ -24,6 +24,7 @@ pub const SMALLEST_ROBUST_THRESHOLD: f64 = 1.0 / 16_777_216.0;
 
 /// A footprint or parameter that has no threshold.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum InvalidInput {
     /// A coordinate or derivative is NaN or infinite.
     NotFinite {
@@ -143,9 +144,9 @@ impl<H> Robust<H> {
             validate(footprint, self.hash_scale)?;
         }
         let hash_scale = R::from_f64(self.hash_scale);
-        let scales = scales::scales(self.variant, footprint, hash_scale, self.repairs);
+        let scales = scales::robust_scales(self.variant, footprint, hash_scale, self.repairs);
         let joined =
-            join::join(self.join, self.variant, &self.hash, footprint.position, &scales, self.repairs);
+            join::joined(self.join, self.variant, &self.hash, footprint.position, &scales, self.repairs);
         let smallest = if self.repairs.contains(Repair::FinalClamp) {
             SMALLEST_ROBUST_THRESHOLD
         } else {
@@ -165,7 +166,7 @@ fn validate<R: Real>(footprint: &Footprint<R>, hash_scale: f64) -> Result<(), In
         (&["dpdx.x", "dpdx.y", "dpdx.z"], footprint.dpdx.into()),
         (&["dpdy.x", "dpdy.y", "dpdy.z"], footprint.dpdy.into()),
     ];
-    for (names, values) in named {
+    for (names, values) in named.into_iter().filter(|(_, values)| !all_finite(*values)) {
         for (&what, value) in names.iter().zip(values) {
             if !value.is_finite() {
                 return Err(InvalidInput::NotFinite { what, value: value.to_f64() });
@@ -173,6 +174,10 @@ fn validate<R: Real>(footprint: &Footprint<R>, hash_scale: f64) -> Result<(), In
         }
     }
     Ok(())
+}
+
+fn all_finite<R: Real>(v: [R; 3]) -> bool {
+    v.iter().all(|component| component.is_finite())
 }
 
 #[cfg(test)]

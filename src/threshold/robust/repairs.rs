@@ -1,12 +1,13 @@
 //! What the robust threshold does differently, each difference by its name.
 
-use crate::threshold::hash::{UnknownName, by_name};
+use crate::threshold::choice::{UnknownName, by_name};
 use core::fmt;
 use core::str::FromStr;
 
 /// One difference from Listings 1 and 2. None is in the paper.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[repr(u8)]
+#[non_exhaustive]
 pub enum Repair {
     /// Positions, derivatives and the hash scale are checked; what is not a finite number is an error.
     ValidateInputs,

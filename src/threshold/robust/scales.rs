@@ -4,7 +4,7 @@ use super::repairs::{Repair, Repairs};
 use crate::threshold::footprint::Footprint;
 use crate::threshold::hash::{Cell, octave_word};
 use crate::threshold::real::{Real, power_of_two};
-use crate::threshold::two_scale::{Variant, length};
+use crate::threshold::two_scale::{Variant, length_of};
 
 /// The octave and the place within it along each axis. Isotropic scales hold the same value three times.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,14 +37,14 @@ pub(in crate::threshold) fn side_bounds<R: Real>() -> [R; 2] {
 
 /// Finds the octaves of a footprint. `variant` is isotropic, or anisotropic; other variants count as isotropic.
 #[must_use]
-pub fn scales<R: Real>(
+pub fn robust_scales<R: Real>(
     variant: Variant,
     footprint: &Footprint<R>,
     hash_scale: R,
     repairs: Repairs,
 ) -> Scales<R> {
     let floors = repairs.contains(Repair::DerivativeFloor);
-    let measure = if floors { safe_length } else { length };
+    let measure = if floors { safe_length } else { length_of };
     let (dx, dy): ([R; 3], [R; 3]) = (footprint.dpdx.into(), footprint.dpdy.into());
     let anisotropic = variant == Variant::Anisotropic;
     let max_derivative = if anisotropic {
@@ -108,7 +108,7 @@ pub(in crate::threshold) fn below_one<R: Real>(fraction: R) -> R {
 /// With [`Repair::NestedPhase`] the cells of octave k begin 1/3 of a cell below whole numbers where k is even and 2/3
 /// where it is odd; every boundary of one octave is then a boundary of the next one, up to one rounding of 1/3.
 #[must_use]
-pub fn cell<R: Real>(position: R::Vec3, octave: [i32; 3], repairs: Repairs) -> Cell<R> {
+pub fn nested_cell<R: Real>(position: R::Vec3, octave: [i32; 3], repairs: Repairs) -> Cell<R> {
     let position: [R; 3] = position.into();
     let index = [0, 1, 2].map(|axis| {
         let scaled = R::from_f64(power_of_two(octave[axis])) * position[axis];
@@ -126,8 +126,8 @@ pub fn cell<R: Real>(position: R::Vec3, octave: [i32; 3], repairs: Repairs) -> C
 #[inline(always)]
 #[must_use]
 pub fn corner_weight<R: Real>(fraction: [R; 3]) -> R {
-    let to_floor = length(fraction);
-    let to_ceil = length(fraction.map(|f| R::from_f64(1.0) - f));
+    let to_floor = length_of(fraction);
+    let to_ceil = length_of(fraction.map(|f| R::from_f64(1.0) - f));
     to_floor / (to_floor + to_ceil)
 }
 
@@ -138,26 +138,30 @@ pub(in crate::threshold) fn floored<R: Real>(
     position: [R; 3],
     [smallest, greatest]: [R; 2],
 ) -> [R; 3] {
-    let largest = |[x, y, z]: [R; 3]| Real::max(Real::max(x.abs(), y.abs()), z.abs());
-    let coordinate = largest(position) * R::from_f64(LEAST_SHARE_OF_COORDINATE);
-    let longest = Real::clamp(Real::max(largest(side), coordinate), smallest, greatest);
+    let coordinate = largest_component(position) * R::from_f64(LEAST_SHARE_OF_COORDINATE);
+    let longest = Real::clamp(Real::max(largest_component(side), coordinate), smallest, greatest);
     let floor = Real::max(longest * R::from_f64(LEAST_SHARE_OF_LONGEST), Real::min(coordinate, greatest));
     side.map(|side| Real::clamp(side, floor, longest))
 }
 
+#[inline(always)]
+fn largest_component<R: Real>([x, y, z]: [R; 3]) -> R {
+    Real::max(Real::max(x.abs(), y.abs()), z.abs())
+}
+
 /// Returns the Euclidean length; scaled where the plain sum of squares under- or overflows.
 fn safe_length<R: Real>(v: [R; 3]) -> R {
-    let plain = length(v);
+    let plain = length_of(v);
     // Less than half the range of exponents, so that a square stays within it: 2^-50 and 2^60 in `f32`.
     let power = |share: i32| R::from_f64(power_of_two(R::MAX_EXPONENT * share / 127));
     if plain > power(-50) && plain < power(60) {
         return plain;
     }
-    let largest = Real::max(Real::max(v[0].abs(), v[1].abs()), v[2].abs());
+    let largest = largest_component(v);
     if largest == R::from_f64(0.0) || !largest.is_finite() {
         return largest;
     }
-    largest * length(v.map(|c| c / largest))
+    largest * length_of(v.map(|c| c / largest))
 }
 
 #[cfg(test)]

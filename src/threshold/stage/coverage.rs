@@ -3,8 +3,9 @@
 use super::clamp::clamp_last;
 use super::stratify::wrap;
 use crate::threshold::cdf::CdfForm;
-use crate::threshold::hash::integer::{murmur3, pcg};
+use crate::threshold::hash::mm4::murmur3;
 use crate::threshold::hash::open_lattice;
+use crate::threshold::hash::pcg_nested::pcg;
 use crate::threshold::real::Real;
 use crate::threshold::stochastic::stochastic;
 use core::num::NonZeroU32;
@@ -114,8 +115,7 @@ impl SampleStrata {
             }
             SamplePattern::Jittered => samples.for_each(|(out, i)| *out = jitter(i)),
             SamplePattern::Decorrelated => {
-                let [_, a, b, _] = words();
-                let xi: [R; 2] = [a, b].map(open_lattice);
+                let xi = fragment_pair::<R>(words());
                 let stratum = if literal { decorrelated_literal } else { decorrelated };
                 samples.for_each(|(out, i)| *out = jitter(stratum(xi, i, n)));
             }
@@ -193,10 +193,10 @@ pub fn decorrelated_literal<R: Real>(xi: [R; 2], i: u32, n: NonZeroU32) -> u32 {
 /// For powers of two these are the odd numbers, as in the paper. The work grows with `n`.
 #[must_use]
 pub fn decorrelated<R: Real>(xi: [R; 2], i: u32, n: NonZeroU32) -> u32 {
-    let offset = choice(xi[0], n.get());
-    let coprime = |&step: &u32| gcd(step, n.get()) == 1;
+    let offset = chosen_part(xi[0], n.get());
+    let coprime = |&step: &u32| is_coprime(step, n.get());
     let count = (1..=n.get()).filter(coprime).count();
-    let chosen = choice(xi[1], count as u32);
+    let chosen = chosen_part(xi[1], count as u32);
     let step = (1..=n.get()).filter(coprime).nth(chosen as usize).unwrap_or(1);
     let stratum = (u64::from(offset) + u64::from(i % n) * u64::from(step)) % u64::from(n.get());
     stratum as u32
@@ -214,17 +214,22 @@ pub fn shuffled(word: u32, i: u32, n: NonZeroU32) -> u32 {
     (0..n.get()).filter(|&other| hash(other) < own).count() as u32
 }
 
+/// The two numbers in (0, 1) of a fragment, out of its words; the first word is left to stochastic thresholds.
+fn fragment_pair<R: Real>([_, first, second, _]: [u32; 4]) -> [R; 2] {
+    [first, second].map(open_lattice)
+}
+
 /// Cuts [0, 1] into `n` equal parts and returns the index of the one that holds `xi`; 0 for NaN.
-fn choice<R: Real>(xi: R, n: u32) -> u32 {
+fn chosen_part<R: Real>(xi: R, n: u32) -> u32 {
     let scaled = (Real::clamp(xi, R::from_f64(0.0), R::from_f64(1.0)) * R::from_f64(f64::from(n))).floor();
     scaled.to_word().min(n - 1)
 }
 
-fn gcd(mut a: u32, mut b: u32) -> u32 {
+fn is_coprime(mut a: u32, mut b: u32) -> bool {
     while b != 0 {
         (a, b) = (b, a % b);
     }
-    a
+    a == 1
 }
 
 #[cfg(test)]

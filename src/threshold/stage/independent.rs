@@ -1,7 +1,7 @@
 //! Independent thresholds for the frames of temporal antialiasing: offsets, or a word for the frame (§7.2.2, §9).
 
 use crate::threshold::footprint::Footprint;
-use crate::threshold::hash::integer::murmur3;
+use crate::threshold::hash::mm4::murmur3;
 use crate::threshold::hash::offset::Offset;
 use crate::threshold::hash::{Cell, Hash};
 use crate::threshold::model::Model;

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | [`independent`] | frames with hashes of their own, §7.2.2 |
 //! | [`stratify`], [`order`] | strata of frames and their order, §7.2.3, Eq. 6 |
-//! | [`coverage`], [`mask`] | several thresholds in one fragment, §8, Eqs. 7 to 9 |
+//! | [`coverage`] | several thresholds in one fragment, §8, Eqs. 7 to 9 |
 //! | [`screen_door`], [`stipple`] | thresholds of the pixel, §3, Ols 2009 |
 //! | [`fade_in`] | noise that fades in, §7.1, Eqs. 3 to 5 |
 //! | [`clamp`] | the last step of all |
@@ -13,7 +13,6 @@ pub mod clamp;
 pub mod coverage;
 pub mod fade_in;
 pub mod independent;
-pub mod mask;
 pub mod order;
 pub mod screen_door;
 pub mod stipple;

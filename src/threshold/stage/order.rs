@@ -8,6 +8,7 @@ use core::num::NonZeroU32;
 
 /// How n strata are spread over n frames.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Order {
     /// Frame i takes `fract(chi + i / n)` (Eq. 6): low thresholds, then high ones.
     Ascending,
@@ -71,9 +72,9 @@ impl Order {
             Self::Ascending | Self::AlternatingLiteral | Self::Alternating | Self::VanDerCorput => {
                 stratified(chi, self.stratum(i, n).unwrap_or(i), n)
             }
-            Self::VanDerCorputLiteral => wrap(chi + R::from_f64(radical_inverse(i, 2))),
-            Self::PhaseRotated => rotated(chi, i, n, alternating),
-            Self::PhaseRotatedVanDerCorput => rotated(chi, i, n, radical_rank),
+            Self::VanDerCorputLiteral => van_der_corput_literal(chi, i),
+            Self::PhaseRotated => rotated(chi, alternating(entered(chi, i, n), n), n),
+            Self::PhaseRotatedVanDerCorput => rotated(chi, radical_rank(entered(chi, i, n), n), n),
         }
     }
 }
@@ -99,12 +100,19 @@ impl FrameStrata {
     }
 }
 
-/// Enters a permutation of the strata at the frame `floor(n chi)`, and keeps the place of `chi` within its stratum:
-/// `(order((i + floor(n chi)) mod n) + fract(n chi)) / n`.
-fn rotated<R: Real>(chi: R, i: u32, n: NonZeroU32, order: fn(u32, NonZeroU32) -> u32) -> R {
+/// Returns the threshold of frame `i`: `fract(chi + radical_inverse(i))`, with a whole sum as 1.
+fn van_der_corput_literal<R: Real>(chi: R, i: u32) -> R {
+    wrap(chi + R::from_f64(radical_inverse(i, 2)))
+}
+
+/// Returns the frame at which a permutation of `n` strata is entered in frame `i`: `(i + floor(n chi)) mod n`.
+fn entered<R: Real>(chi: R, i: u32, n: NonZeroU32) -> u32 {
+    (i + (chi * R::from_f64(f64::from(n.get()))).floor().to_word() % n) % n
+}
+
+/// Returns the threshold of a stratum that keeps the place of `chi` within its own: `(stratum + fract(n chi)) / n`.
+fn rotated<R: Real>(chi: R, stratum: u32, n: NonZeroU32) -> R {
     let scaled = chi * R::from_f64(f64::from(n.get()));
-    let phase = scaled.floor().to_word() % n;
-    let stratum = order((i + phase) % n, n);
     clamp_last((R::from_f64(f64::from(stratum)) + scaled.fract()) / R::from_f64(f64::from(n.get())))
 }
 

@@ -1,7 +1,7 @@
 //! Screen-door transparency: strata of a threshold over a tile of pixels in place of the samples of one (§3, §8.1).
 
 use super::coverage::{decorrelated, jittered, regular};
-use crate::threshold::hash::integer::murmur3;
+use crate::threshold::hash::mm4::murmur3;
 use crate::threshold::hash::open_lattice;
 use crate::threshold::real::Real;
 use core::num::NonZeroU32;

@@ -29,9 +29,12 @@ impl Density {
 ///
 /// The form with a texture of 2 x 2 texels.
 #[must_use]
-pub fn keeps(density: Density, [x, y]: [u32; 2]) -> bool {
-    let apart = x % 2 == 1 && y % 2 == 1;
-    apart == (density == Density::Low)
+pub fn keeps(density: Density, pixel: [u32; 2]) -> bool {
+    is_apart(pixel) == (density == Density::Low)
+}
+
+fn is_apart([x, y]: [u32; 2]) -> bool {
+    x & y & 1 == 1
 }
 
 /// Returns the threshold of a pixel: `kept`, in (0, 1], where the stipple keeps, and 1, which only an opaque fragment

@@ -1,6 +1,6 @@
 //! Listing 2: one scale an axis, each between two octaves.
 
-use super::{TwoScale, cell, length};
+use super::scales::{TwoScale, cell_at, length_of};
 use crate::threshold::footprint::Footprint;
 use crate::threshold::real::Real;
 
@@ -14,10 +14,10 @@ pub fn two_scale<R: Real>(footprint: &Footprint<R>, hash_scale: R) -> TwoScale<R
     let max_derivative = [0, 1, 2].map(|axis| Real::max(dx[axis].abs(), dy[axis].abs()));
     let pixel_scale = max_derivative.map(|derivative| R::from_f64(0.707) / (hash_scale * derivative));
     let log_scale = pixel_scale.map(R::log2);
-    let cell_at = |octave: [R; 3]| cell(footprint.position, octave.map(R::exp2), octave.map(R::to_i32));
+    let cell_at = |octave: [R; 3]| cell_at(footprint.position, octave.map(R::exp2), octave.map(R::to_i32));
     let fraction = log_scale.map(R::fract);
-    let to_floor = length(fraction);
-    let to_ceil = length(fraction.map(|f| R::from_f64(1.0) - f));
+    let to_floor = length_of(fraction);
+    let to_ceil = length_of(fraction.map(|f| R::from_f64(1.0) - f));
     TwoScale {
         max_derivative,
         pixel_scale,

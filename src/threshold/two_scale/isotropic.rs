@@ -1,6 +1,6 @@
 //! Listing 1: one scale for all axes, between two octaves.
 
-use super::{TwoScale, cell, longest_derivative};
+use super::scales::{TwoScale, cell_at, longest_derivative};
 use crate::threshold::footprint::Footprint;
 use crate::threshold::real::Real;
 
@@ -14,7 +14,7 @@ pub fn two_scale<R: Real>(footprint: &Footprint<R>, hash_scale: R) -> TwoScale<R
     let pixel_scale = R::from_f64(1.0) / (hash_scale * max_derivative);
     let log_scale = pixel_scale.log2();
     let (floor, ceil) = (log_scale.floor(), log_scale.ceil());
-    let cell_at = |octave: R| cell(footprint.position, [octave.exp2(); 3], [octave.to_i32(); 3]);
+    let cell_at = |octave: R| cell_at(footprint.position, [octave.exp2(); 3], [octave.to_i32(); 3]);
     TwoScale {
         max_derivative: [max_derivative; 3],
         pixel_scale: [pixel_scale; 3],

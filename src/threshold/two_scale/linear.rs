@@ -3,7 +3,7 @@
 //! The paper keeps it to show two faults, and so do we: below one object unit per pixel the floor is 0 and the scale
 //! infinite, and the interpolated value is not uniform.
 
-use super::{TwoScale, cell, longest_derivative};
+use super::scales::{TwoScale, cell_at, longest_derivative};
 use crate::threshold::footprint::Footprint;
 use crate::threshold::real::Real;
 
@@ -17,7 +17,7 @@ pub fn two_scale<R: Real>(footprint: &Footprint<R>, hash_scale: R) -> TwoScale<R
     let max_derivative = longest_derivative(footprint);
     let (floor, ceil) = (max_derivative.floor(), max_derivative.ceil());
     let cell_at = |derivative: R| {
-        cell(footprint.position, [one / (hash_scale * derivative); 3], [derivative.to_i32(); 3])
+        cell_at(footprint.position, [one / (hash_scale * derivative); 3], [derivative.to_i32(); 3])
     };
     TwoScale {
         max_derivative: [max_derivative; 3],

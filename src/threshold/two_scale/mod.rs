@@ -6,10 +6,14 @@
 pub mod anisotropic;
 pub mod isotropic;
 pub mod linear;
+mod scales;
 pub mod single;
 
+pub use scales::TwoScale;
+pub(crate) use scales::length_of;
+
+use super::choice::{UnknownName, by_name};
 use super::footprint::Footprint;
-use super::hash::{Cell, UnknownName, by_name, octave_word};
 use super::real::Real;
 use core::fmt;
 use core::str::FromStr;
@@ -76,47 +80,9 @@ impl FromStr for Variant {
     }
 }
 
-/// The two cells of a footprint and the weight between them.
-///
-/// Quantities that the variant has once hold the same value for all three axes.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TwoScale<R: Real> {
-    /// Object units per pixel: `maxDeriv` (Listing 1), `anisoDeriv` (Listing 2), `pixDeriv` (§5.4.1).
-    pub max_derivative: [R; 3],
-    /// Cells per object unit before discretisation: `pixScale` (Listing 1), `anisoScales` (Listing 2).
-    pub pixel_scale: [R; 3],
-    /// The floor of the quantity that is discretised: of log2 `pixel_scale` in both listings, of `max_derivative` in
-    /// [`linear`]; 0 in [`single`]. Saturates.
-    pub octave: [i32; 3],
-    /// The cell at the floor of that quantity (hashed into the paper's `alpha.x`): the coarse cell of both listings,
-    /// the fine cell of [`linear`].
-    pub floor_cell: Cell<R>,
-    /// The cell at its ceiling (hashed into `alpha.y`).
-    pub ceil_cell: Cell<R>,
-    /// Weight of the second cell, in [0, 1] (`lerpFactor`).
-    pub lerp_factor: R,
-}
-
-/// Returns the Euclidean length, summed from left to right (GLSL's `length`).
-#[inline(always)]
-pub(crate) fn length<R: Real>([x, y, z]: [R; 3]) -> R {
-    (x * x + y * y + z * z).sqrt()
-}
-
-/// Returns the larger length of the two derivatives: `max(length(dFdx(objCoord.xyz)), length(dFdy(objCoord.xyz)))`.
-pub(crate) fn longest_derivative<R: Real>(footprint: &Footprint<R>) -> R {
-    Real::max(length(footprint.dpdx.into()), length(footprint.dpdy.into()))
-}
-
-/// Returns the cell of `position` in a grid with `scale` cells per object unit.
-pub(crate) fn cell<R: Real>(position: R::Vec3, scale: [R; 3], octave: [i32; 3]) -> Cell<R> {
-    let ([x, y, z], [sx, sy, sz]) = (position.into(), scale);
-    let index = [(sx * x).floor(), (sy * y).floor(), (sz * z).floor()];
-    Cell { index: index.into(), octave: octave_word(octave) }
-}
-
 #[cfg(test)]
 mod tests {
+    use super::scales::cell_at;
     use super::*;
     use glam::dvec3;
 
@@ -133,8 +99,8 @@ mod tests {
         let found = Variant::Isotropic.two_scale(&footprint(0.3), 1.0);
         assert!((found.max_derivative[0] - 0.3).abs() < 1e-15);
         assert_eq!(found.octave, [1; 3]);
-        assert_eq!(found.floor_cell, cell(dvec3(0.31, -1.72, 2.43), [2.0; 3], [1; 3]));
-        assert_eq!(found.ceil_cell, cell(dvec3(0.31, -1.72, 2.43), [4.0; 3], [2; 3]));
+        assert_eq!(found.floor_cell, cell_at(dvec3(0.31, -1.72, 2.43), [2.0; 3], [1; 3]));
+        assert_eq!(found.ceil_cell, cell_at(dvec3(0.31, -1.72, 2.43), [4.0; 3], [2; 3]));
         assert!((found.lerp_factor - libm::log2(10.0 / 6.0)).abs() < 1e-15);
     }
 

@@ -1,6 +1,6 @@
 //! One scale, one hash (§5.4.1): stable under translation along the screen, redrawn with every change of distance.
 
-use super::{TwoScale, cell, longest_derivative};
+use super::scales::{TwoScale, cell_at, longest_derivative};
 use crate::threshold::footprint::Footprint;
 use crate::threshold::real::Real;
 
@@ -9,7 +9,7 @@ use crate::threshold::real::Real;
 pub fn two_scale<R: Real>(footprint: &Footprint<R>, hash_scale: R) -> TwoScale<R> {
     let pixel_derivative = longest_derivative(footprint);
     let pixel_scale = R::from_f64(1.0) / (hash_scale * pixel_derivative);
-    let only_cell = cell(footprint.position, [pixel_scale; 3], [0; 3]);
+    let only_cell = cell_at(footprint.position, [pixel_scale; 3], [0; 3]);
     TwoScale {
         max_derivative: [pixel_derivative; 3],
         pixel_scale: [pixel_scale; 3],

@@ -16,5 +16,5 @@ fn robust_scales(position: vec3<f32>, dpdx: vec3<f32>, dpdy: vec3<f32>, hash_sca
     let max_derivative = max(safe_length(dpdx), safe_length(dpdy));
     let bounded_scale = clamp(hash_scale, SMALLEST_SIDE, GREATEST_SIDE);
     let side = vec3<f32>(bounded_scale * min(max_derivative, GREATEST_SIDE));
-    return scales_of(1.0 / floored(side, position));
+    return by_exponent(1.0 / floored(side, position));
 }

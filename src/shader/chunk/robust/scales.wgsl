@@ -23,7 +23,7 @@ fn floored(side: vec3<f32>, position: vec3<f32>) -> vec3<f32> {
 
 // Cuts cells per object unit, all normal and above 0, to octaves: the octave out of the bits of the exponent, the
 // fraction out of those of the mantissa, so that the two cannot disagree.
-fn scales_of(pixel_scale: vec3<f32>) -> Scales {
+fn by_exponent(pixel_scale: vec3<f32>) -> Scales {
     let bits = bitcast<vec3<u32>>(pixel_scale);
     let octave = bitcast<vec3<i32>>(bits >> vec3<u32>(23u)) - 127;
     let mantissa = bitcast<vec3<f32>>((bits & vec3<u32>(0x7fffffu)) | vec3<u32>(0x3f800000u));

@@ -35,7 +35,7 @@ pub const DIFFERENCES: &[Difference] = &[
         "a sine whose argument is reduced by a rounded 1/(2 pi): from 2^17 on",
     ),
     of_swiftshader(
-        "hash sine chi 2, far cells",
+        "hash sine_chi_2, far cells",
         "the same; its outer hash is that of a coordinate: from 2^13 on",
     ),
     of_all("normal quantile", "f32 in place of f64, and the device's log and sqrt"),

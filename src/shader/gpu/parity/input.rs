@@ -5,7 +5,7 @@ use crate::threshold::footprint::Footprint;
 use crate::threshold::hash::{Hash, HashKind};
 use crate::threshold::real::Real;
 use crate::threshold::robust::Repairs;
-use crate::threshold::robust::scales::{Scales, scales};
+use crate::threshold::robust::scales::{Scales, robust_scales};
 use crate::threshold::two_scale::{TwoScale, Variant};
 use glam::Vec3;
 
@@ -88,7 +88,7 @@ fn anisotropic(index: u32) -> TwoScale<f32> {
 }
 
 fn robust(index: u32) -> Scales<f32> {
-    scales(Variant::Anisotropic, &footprint(index), 1.0, Repairs::ALL)
+    robust_scales(Variant::Anisotropic, &footprint(index), 1.0, Repairs::ALL)
 }
 
 /// Hash scale and longest derivative.

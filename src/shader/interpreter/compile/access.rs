@@ -1,8 +1,8 @@
 //! Variables, and the parts of variables and values.
 
-use super::super::Open;
 use super::super::error::Unsupported;
 use super::super::op::{Binary, Op, Register, Unary};
+use super::super::undefined::UndefinedKind;
 use super::{Compiler, Operand, Place, Scope, Value};
 use naga::{AddressSpace, Expression, GlobalVariable, Handle, Span};
 
@@ -105,7 +105,7 @@ impl<'a> Compiler<'a> {
         let last = self.word(count - 1)?;
         if self.known(index).is_none_or(|index| index >= count) {
             let odd = self.binary(Binary::LessUnsigned, last, index)?;
-            self.count(odd, Open::Index, span)?;
+            self.count(odd, UndefinedKind::Index, span)?;
         }
         let clamped = self.binary(Binary::MinUnsigned, index, last)?;
         let stride = self.word(size as u32)?;

@@ -2,7 +2,8 @@
 
 use super::super::error::Unsupported;
 use super::super::op::{Binary, Contracted, Op, Product, Register, Unary};
-use super::super::{Constant, Open};
+use super::super::program::Constant;
+use super::super::undefined::UndefinedKind;
 use super::{Compiler, MOST_OPERATIONS, MOST_REGISTERS, Value};
 use naga::Span;
 
@@ -63,13 +64,13 @@ impl Compiler<'_> {
     }
 
     /// Counts the lanes in which `odd` is true.
-    pub(super) fn count(&mut self, odd: Register, open: Open, span: Span) -> Result<()> {
-        let known = self.oddities.iter().position(|&known| known == (open, span));
-        let oddity = known.unwrap_or_else(|| {
-            self.oddities.push((open, span));
-            self.oddities.len() - 1
+    pub(super) fn count(&mut self, odd: Register, kind: UndefinedKind, span: Span) -> Result<()> {
+        let known = self.undefined.iter().position(|&known| known == (kind, span));
+        let met = known.unwrap_or_else(|| {
+            self.undefined.push((kind, span));
+            self.undefined.len() - 1
         });
-        self.push(Op::Count { odd, oddity })
+        self.push(Op::Count { odd, met })
     }
 
     /// The word that a register holds in all lanes, where that is known here.

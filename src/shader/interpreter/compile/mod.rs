@@ -14,9 +14,11 @@ mod operator;
 mod statement;
 mod types;
 
+use super::columns::Kind;
 use super::error::Unsupported;
 use super::op::{Block, Product, Register};
-use super::{Constant, Kind, Open, Parameter, Program};
+use super::program::{Constant, Parameter, Program};
+use super::undefined::UndefinedKind;
 use core::sync::atomic::AtomicU64;
 use naga::valid::{FunctionInfo, ModuleInfo};
 use naga::{Arena, Expression, Function, GlobalVariable, Handle, Module, Override, Span, TypeInner};
@@ -88,7 +90,7 @@ struct Compiler<'a> {
     /// Registers that hold a product.
     products: HashMap<Register, Product>,
     /// What can happen, and where; calls of a function count together.
-    oddities: Vec<(Open, Span)>,
+    undefined: Vec<(UndefinedKind, Span)>,
 }
 
 /// Compiles a function or an entry point; see [`Program::compile`].
@@ -106,7 +108,7 @@ pub(super) fn compile(module: &Module, info: &ModuleInfo, name: &str) -> Result<
         globals: HashMap::new(),
         overrides: HashMap::new(),
         products: HashMap::new(),
-        oddities: Vec::new(),
+        undefined: Vec::new(),
     };
     let (mut parameters, mut arguments, mut columns) = (Vec::new(), Vec::new(), Vec::new());
     for argument in &function.arguments {
@@ -137,8 +139,8 @@ pub(super) fn compile(module: &Module, info: &ModuleInfo, name: &str) -> Result<
         constants,
         body,
         registers: compiler.registers as usize,
-        counts: compiler.oddities.iter().map(|_| AtomicU64::new(0)).collect(),
-        oddities: compiler.oddities,
+        counts: compiler.undefined.iter().map(|_| AtomicU64::new(0)).collect(),
+        undefined: compiler.undefined,
         steps: Program::DEFAULT_STEPS,
     })
 }

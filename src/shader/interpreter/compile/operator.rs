@@ -1,8 +1,8 @@
 //! Unary and binary operators.
 
-use super::super::Open;
 use super::super::error::Unsupported;
 use super::super::op::{Binary, Register, Unary};
+use super::super::undefined::UndefinedKind;
 use super::expression::is_matrix;
 use super::types::scalar_kind;
 use super::{Compiler, Scope, Value};
@@ -49,7 +49,7 @@ impl<'a> Compiler<'a> {
                 if divides && compiler.known(y).is_none_or(|y| y == 0) {
                     let zero = compiler.word(0)?;
                     let odd = compiler.binary(Binary::EqualWord, y, zero)?;
-                    compiler.count(odd, Open::Division, span)?;
+                    compiler.count(odd, UndefinedKind::Division, span)?;
                 }
                 let (function, swapped) = integer_operator(op, kind == ScalarKind::Sint);
                 let (x, y) = if swapped { (y, x) } else { (x, y) };

@@ -1,6 +1,7 @@
 //! How types are laid out: as their scalars in order.
 
-use super::super::{Kind, error::Unsupported};
+use super::super::columns::Kind;
+use super::super::error::Unsupported;
 use super::{Compiler, kind};
 use naga::{ArraySize, Handle, ScalarKind, Type, TypeInner};
 

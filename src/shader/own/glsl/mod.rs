@@ -6,11 +6,11 @@ mod prepare;
 mod reach;
 mod words;
 
-use super::Options;
 use super::error::Fault;
 use super::front::{Front, filled_by_entry_points};
 use super::invalid::{CIRCLE, validate};
 use super::isolated::isolated;
+use super::options::Options;
 use super::scan::{end_of_file, tokens};
 use naga::front::glsl::Frontend;
 

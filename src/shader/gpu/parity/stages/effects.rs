@@ -2,7 +2,7 @@
 
 use super::super::input::{self, number, numbers};
 use super::super::{Class, Stage};
-use super::{bounded, isotropic, stable};
+use super::parts::{bounded, isotropic, number_stage, stable};
 use crate::threshold::pipeline::{
     FadeIn, FrameStrata, Pipeline, SamplePattern, SampleStrata, ScreenDoor, Source,
 };
@@ -58,7 +58,7 @@ pub(super) const STAGES: &[Stage] = &[
     ),
     number_stage!(
         "blend literal", bounded(6.0, 0.0, "the square of a quotient of 2.5 ULP"), literal_effects,
-        "blend(number(0u), number(1u))", 2, input::lod,
+        "blend_literal(number(0u), number(1u))", 2, input::lod,
         |words| fade_in::blend_literal(number(words, 0), number(words, 1)),
         ["(lod / n) * (lod / n)", "(lod / n)"]
     ),
@@ -76,7 +76,7 @@ pub(super) const STAGES: &[Stage] = &[
     ),
     number_stage!(
         "fade in literal", bounded(2.0, 1.0 / 16_777_216.0, "a product and a sum that may be fused"), literal_effects,
-        "fade_in(number(0u), number(1u))", 2, input::faded,
+        "fade_in_literal(number(0u), number(1u))", 2, input::faded,
         |words| fade_in::fade_in_literal(0.5, number(words, 0), number(words, 1)),
         ["(threshold_value - 0.5)", "(threshold_value - 0.501)"]
     ),
@@ -95,7 +95,7 @@ pub(super) const STAGES: &[Stage] = &[
     ),
     number_stage!(
         "alternating literal", Class::Bits, literal_effects,
-        "f32(alternating(word(1u), word(2u)))", 3, input::stratum,
+        "f32(alternating_literal(word(1u), word(2u)))", 3, input::stratum,
         |words| stratify::alternating_literal(words[1], strata(words, 2)) as f32,
         ["(n / 2u)", "((n + 1u) / 2u)"]
     ),
@@ -182,7 +182,7 @@ pub(super) const STAGES: &[Stage] = &[
     ),
     number_stage!(
         "decorrelated literal", Class::Bits, literal_effects,
-        "f32(decorrelated(vec2<f32>(number(0u), number(1u)), word(2u), word(3u)))", 4, input::two_and_power,
+        "f32(decorrelated_literal(vec2<f32>(number(0u), number(1u)), word(2u), word(3u)))", 4, input::two_and_power,
         |words| coverage::decorrelated_literal(numbers(words, 0), words[2], strata(words, 3)) as f32,
         ["2u * u32", "4u * u32"]
     ),

@@ -2,9 +2,9 @@
 
 use super::super::input::{self, number, numbers, read_footprint};
 use super::super::{Class, Stage};
-use super::{LOG2, anisotropic, bounded, isotropic, robust};
+use super::parts::{LOG2, anisotropic, bounded, isotropic, number_stage, robust, vector_stage};
 use crate::threshold::real::Real;
-use crate::threshold::robust::scales::{by_exponent, cell, corner_weight};
+use crate::threshold::robust::scales::{by_exponent, corner_weight, nested_cell};
 use crate::threshold::robust::{Join, Repairs};
 use crate::threshold::two_scale::Variant;
 use glam::Vec3;
@@ -64,7 +64,7 @@ pub(super) const STAGES: &[Stage] = &[
     ),
     vector_stage!(
         "octave from the exponent", Class::Bits, || robust(Variant::Isotropic, Join::Interpolate),
-        "vec3<f32>(scales_of(vec3<f32>(number(0u), number(1u), number(2u))).octave)", 3, input::pixel_scales,
+        "vec3<f32>(by_exponent(vec3<f32>(number(0u), number(1u), number(2u))).octave)", 3, input::pixel_scales,
         |words| numbers::<3>(words, 0).map(|scale| by_exponent(scale).0 as f32),
         ["- 127", "- 126"]
     ),
@@ -72,7 +72,7 @@ pub(super) const STAGES: &[Stage] = &[
         "fraction from the mantissa",
         bounded(0.0, 1.1 * LOG2, "log2: 2^-21 on [1, 2]; Rust rounds its own by 2^-25"),
         || robust(Variant::Isotropic, Join::Interpolate),
-        "scales_of(vec3<f32>(number(0u), number(1u), number(2u))).fraction", 3, input::pixel_scales,
+        "by_exponent(vec3<f32>(number(0u), number(1u), number(2u))).fraction", 3, input::pixel_scales,
         |words| numbers::<3>(words, 0).map(|scale| by_exponent(scale).2),
         ["log2(mantissa)", "mantissa - 1.0"]
     ),
@@ -105,7 +105,7 @@ pub(super) const STAGES: &[Stage] = &[
         6, input::nested_place,
         |words| {
             let octave = [3, 4, 5].map(|k| words[k] as i32);
-            let index: Vec3 = cell::<f32>(numbers(words, 0).into(), octave, Repairs::ALL).index;
+            let index: Vec3 = nested_cell::<f32>(numbers(words, 0).into(), octave, Repairs::ALL).index;
             index.to_array()
         },
         ["vec3<f32>(0.6666667), is_even", "vec3<f32>(0.33333334), is_even"]

@@ -2,7 +2,7 @@
 
 use super::super::input::{self, read_footprint};
 use super::super::{Class, Stage};
-use super::{LOG2, anisotropic, bounded, isotropic, listing, robust};
+use super::parts::{LOG2, anisotropic, bounded, isotropic, listing, robust};
 use crate::threshold::cdf::CdfForm;
 use crate::threshold::hash::HashKind;
 use crate::threshold::hashed::HashedAlpha;

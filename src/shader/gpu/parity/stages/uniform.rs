@@ -2,7 +2,7 @@
 
 use super::super::input::{self, number, numbers};
 use super::super::{Class, Stage};
-use super::{EQ_2, bounded, isotropic, robust, stable};
+use super::parts::{EQ_2, bounded, isotropic, number_stage, robust, stable};
 use crate::threshold::cdf::{cdf, cdf_literal, minor_weight};
 use crate::threshold::normal::{normal_cdf, normal_quantile};
 use crate::threshold::real::Real;

@@ -4,7 +4,7 @@ use super::error::Fault;
 use super::isolated::isolated;
 use super::{Binding, Input, OwnShader, ShaderError, Value};
 use crate::scene::fragment::Fragment;
-use crate::shader::interpreter::{Column, DeviceModel, Oddity, Program, Stopped, Values};
+use crate::shader::interpreter::{Column, DeviceModel, Program, Stopped, Undefined, Values};
 use core::fmt::Write as _;
 
 impl Input {
@@ -111,11 +111,11 @@ impl OwnShader {
     /// the number of evaluations.
     #[must_use]
     pub fn remarks(&self, program: &Program) -> Vec<String> {
-        let said = |Oddity { open, span, lanes }| {
-            let error = self.error_at(span, open.to_string());
+        let said = |Undefined { kind, span, lanes }| {
+            let error = self.error_at(span, kind.to_string());
             format!("{error} ({lanes} times)")
         };
-        program.oddities().into_iter().map(said).collect()
+        program.undefined().into_iter().map(said).collect()
     }
 
     /// Returns the module as WGSL text without bindings and entry points, whatever its language was.

@@ -1,18 +1,18 @@
-//! What a run met that the shading languages leave open: no error, but hardly meant.
+//! Undefined behaviour that a run met: the shading languages leave it open, so it is no error, but hardly meant.
 
 use core::fmt;
 use naga::Span;
 
-/// Something that a shading language leaves open.
+/// Behaviour that the shading languages leave undefined.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Open {
+pub enum UndefinedKind {
     /// An index beyond the last element, or below the first: the last element is taken.
     Index,
     /// The division of an integer by zero: `x / 0` is `x`, `x % 0` is 0.
     Division,
 }
 
-impl fmt::Display for Open {
+impl fmt::Display for UndefinedKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.pad(match self {
             Self::Index => "an index is out of range; the last element was taken",
@@ -23,9 +23,9 @@ impl fmt::Display for Open {
 
 /// A place where that happened.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Oddity {
+pub struct Undefined {
     /// What happened.
-    pub open: Open,
+    pub kind: UndefinedKind,
     /// Where; undefined where naga does not know.
     pub span: Span,
     /// In how many lanes of all runs so far.

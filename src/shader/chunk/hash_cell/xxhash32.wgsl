@@ -5,9 +5,9 @@ fn xxhash_step(state: u32, word: u32) -> u32 {
 // XXH32 over x, y, z, seeded with the octave. Not in the paper.
 fn hash_cell(cell: Cell) -> f32 {
     var h = cell.octave + 374761393u + 12u;
-    h = xxhash_step(h, integral_word(cell.index.x));
-    h = xxhash_step(h, integral_word(cell.index.y));
-    h = xxhash_step(h, integral_word(cell.index.z));
+    h = xxhash_step(h, to_word(cell.index.x));
+    h = xxhash_step(h, to_word(cell.index.y));
+    h = xxhash_step(h, to_word(cell.index.z));
     h = (h ^ (h >> 15u)) * 2246822519u;
     h = (h ^ (h >> 13u)) * 3266489917u;
     return open_lattice(h ^ (h >> 16u));

@@ -1,5 +1,5 @@
 // The low 32 bits of an integral float in two's complement; saturates beyond 64 bits, and NaN gives 0.
-fn integral_word(x: f32) -> u32 {
+fn to_word(x: f32) -> u32 {
     let bits = bitcast<u32>(x);
     let exponent = (bits >> 23u) & 0xffu;
     if exponent < 158u {
