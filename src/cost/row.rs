@@ -22,7 +22,7 @@ pub struct Row {
     pub join: &'static str,
     /// The type of the results.
     pub precision: &'static str,
-    /// How exact sine and logarithm are: a [`Tier`], "std" for the standard library's or "double-double".
+    /// How exact sine and logarithm are: a [`Tier`](crate::threshold::batch::Tier), "std" for the standard library's or "double-double".
     pub tier: &'static str,
     /// The vector instructions; "scalar" for one value after the other.
     pub isa: &'static str,

@@ -14,10 +14,10 @@ pub struct TwoScale<R: Real> {
     /// Cells per object unit before discretisation: `pixScale` (Listing 1), `anisoScales` (Listing 2).
     pub pixel_scale: [R; 3],
     /// The floor of the quantity that is discretised: of log2 `pixel_scale` in both listings, of `max_derivative` in
-    /// [`linear`]; 0 in [`single`]. Saturates.
+    /// [`linear`](mod@super::linear); 0 in [`single`](mod@super::single). Saturates.
     pub octave: [i32; 3],
     /// The cell at the floor of that quantity (hashed into the paper's `alpha.x`): the coarse cell of both listings,
-    /// the fine cell of [`linear`].
+    /// the fine cell of [`linear`](mod@super::linear).
     pub floor_cell: Cell<R>,
     /// The cell at its ceiling (hashed into `alpha.y`).
     pub ceil_cell: Cell<R>,
