@@ -345,6 +345,11 @@ fn shader_text_has_the_chunks_of_its_stages_only() {
             "screen_door = { mask = 'fixed' }",
         ),
         ("screen_door = { mask = 'hashed' }", "fn randomised", "screen_door = { mask = 'random' }"),
+        (
+            "alpha_to_coverage = { samples = 4, pattern = 'regular' }\nsharpened = {}",
+            "fn sharpened",
+            "alpha_to_coverage = { samples = 4, pattern = 'regular' }",
+        ),
         ("stipple = { density = 'high' }", "fn is_apart", "fixed = {}"),
     ] {
         assert!(of(with).contains(chunk), "{with}");
