@@ -1,6 +1,9 @@
 //! Alpha sharpened by its screen derivative before alpha to coverage (Golus 2017): "alpha to coverage" of a blurred edge
 //! spreads it over as many pixels as the texture is magnified; divided by its change from pixel to pixel, alpha rises from
 //! 0 to 1 within one pixel around a cutoff, whatever the distance.
+//!
+//! A short effect to start a new one from. [`Phase`] has the three kinds of stages, `draw/setup.rs` what a stage before shading may
+//! change, `draw/work.rs` the columns of a tile, [`Role`] what effects are to each other, [`Text`] what shader text has of them.
 
 use super::kind::{About, Bound, Cost, Effect, Per, Phase, Plan, Role, Rules, Text, techniques, tell};
 use crate::render::draw::work::{Shading, Work};
