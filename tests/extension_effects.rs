@@ -1,84 +1,82 @@
-//! An effect is one file: besides it, its line in the list and, for the few that the planner or the price list choose by name, one
-//! file more know of it. Scenes are counted in another test: every technique has one.
+//! What a new effect costs: its own file, its line in the list, and the scene that shows it; no other file under `src` knows of
+//! it by hand. The few that something chooses by name are listed, each with the reason. The page of scenes is counted apart.
 
-use hashed_alpha::render::effect::ALL;
+use crate::architecture::{code, sources};
+use hashed_alpha::render::effect::{ALL, GALLERY, techniques};
 use std::collections::BTreeMap;
-use std::fs;
-use std::path::Path;
 
 /// Source text by its path below `src`.
 type Sources = BTreeMap<String, String>;
 
-fn read(folder: &Path, below: &str, sources: &mut Sources) {
-    for entry in fs::read_dir(folder).expect("the folder exists") {
-        let path = entry.expect("an entry").path();
-        let name = format!("{below}{}", path.file_name().and_then(|name| name.to_str()).expect("UTF-8"));
-        if path.is_dir() {
-            read(&path, &format!("{name}/"), sources);
-        } else if name.ends_with(".rs") {
-            let text = fs::read_to_string(&path).expect("a source file");
-            let code = text.split("#[cfg(test)]\nmod tests").next().unwrap_or_default();
-            let is_code = |line: &&str| !line.trim_start().starts_with("//");
-            sources.insert(name, code.lines().filter(is_code).collect::<Vec<_>>().join("\n"));
-        }
-    }
+/// Files that may name effects beside their own and the list, each with the effects and the reason.
+const MORE: [(&str, &[&str], &str); 2] = [
+    (
+        "render/measure/auto.rs",
+        &["alpha_to_coverage", "average", "fade_in", "fixed", "premultiplied", "robust", "temporal"],
+        "`effects = \"auto\"` chooses among these",
+    ),
+    ("cost/techniques.rs", &["hashed", "stochastic"], "whole frames are those of Table 1"),
+];
+
+/// Whether a file could know of the tables of scenes: elsewhere the same word is a threshold, an effect size or a unit.
+fn may_know(path: &str) -> bool {
+    let rooms = ["render/", "cost/techniques", "report/study.rs", "report/figure/distance.rs"];
+    rooms.iter().any(|room| path.starts_with(room))
+        || ["scene", "explain", "render"].iter().any(|word| path.starts_with(&format!("cli/{word}")))
 }
 
-fn sources() -> Sources {
-    let mut sources = Sources::new();
-    read(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src"), "", &mut sources);
-    sources
-}
-
-/// The files that name the table of an effect: its module, its field in a set, or its key in a string of a scene.
+/// The files that name the table of an effect: its module, its field in a set, or its key in a string.
 fn files<'a>(sources: &'a Sources, effect: &str) -> Vec<&'a str> {
-    let words = [
-        format!("effect::{effect}::"),
-        format!("effects.{effect}"),
-        format!("set.{effect}"),
-        format!("rest.{effect}"),
-        format!("`{effect}`"),
-        format!("`{effect}."),
-        format!("\"{effect} ="),
-        format!("\"{effect}\""),
-    ];
-    let names = |path: &str, text: &str| match path {
-        "render/effect/mod.rs" => text.contains(&format!("    {effect}: ")),
-        _ => words.iter().any(|word| text.contains(word)),
+    let ends = |rest: &str| !rest.starts_with(|c: char| c.is_alphanumeric() || c == '_');
+    let words =
+        ["effect::", "effects.", "set.", "rest.", "`", "\""].map(|before| format!("{before}{effect}"));
+    let has = |text: &str| {
+        let code = code(text);
+        let found = |word: &String| code.match_indices(word).any(|(at, _)| ends(&code[at + word.len()..]));
+        words.iter().any(found)
     };
-    let own = format!("render/effect/{effect}.rs");
-    let is_one = |(path, text): &(&'a String, &String)| **path == own || names(path, text);
-    sources.iter().filter(is_one).map(|(path, _)| path.as_str()).collect()
+    let [own, list] = [format!("render/effect/{effect}.rs"), "render/effect/mod.rs".to_owned()];
+    let names = |path: &str, text: &str| {
+        *path == own
+            || (path == list && text.contains(&format!("    {effect}: ")))
+            || (path != list && has(text))
+    };
+    let known = sources.iter().filter(|(path, text)| may_know(path) && names(path, text));
+    known.map(|(path, _)| path.as_str()).collect()
 }
 
-/// Its own, its line in the list, and one that chooses effects by name. The scene that shows it makes the third of an effect
-/// that nothing chooses.
-const MOST: usize = 3;
-
-/// Files of other rooms in which a word in quotes is not the table of a scene.
-fn is_of_effects(path: &str) -> bool {
-    path.starts_with("render/") || path.starts_with("cost/techniques") || path == "report/study.rs"
-}
-
+/// Effects with the files that know of them without a reason.
 fn scattered(sources: &Sources) -> Vec<(&'static str, Vec<&str>)> {
-    let found = ALL.iter().map(|known| (known.name, files(sources, known.name)));
-    let of_effects =
-        found.map(|(name, files)| (name, files.into_iter().filter(|path| is_of_effects(path)).collect()));
-    of_effects.filter(|(_, files): &(_, Vec<&str>)| files.len() > MOST).collect()
+    let of = |effect: &'static str| {
+        let own = format!("render/effect/{effect}.rs");
+        let has_reason = |path: &str| {
+            path == own
+                || path == "render/effect/mod.rs"
+                || MORE.iter().any(|(at, effects, _)| *at == path && effects.contains(&effect))
+        };
+        (effect, files(sources, effect).into_iter().filter(|path| !has_reason(path)).collect())
+    };
+    ALL.iter().map(|known| of(known.name)).filter(|(_, files): &(_, Vec<&str>)| !files.is_empty()).collect()
 }
 
 #[test]
-fn an_effect_is_one_file_and_a_line_in_the_list() {
+fn an_effect_is_its_file_a_line_in_the_list_and_a_scene() {
     let sources = sources();
-    for known in ALL {
-        let files = files(&sources, known.name);
-        let own = format!("render/effect/{}.rs", known.name);
-        assert!(files.contains(&own.as_str()) && files.contains(&"render/effect/mod.rs"), "{files:?}");
-    }
     assert_eq!(scattered(&sources), []);
+    for (file, effects, _) in MORE {
+        for effect in effects {
+            assert!(files(&sources, effect).contains(&file), "{file} does not need {effect}");
+        }
+    }
+    // What shows an effect is a scene of the list.
+    for (known, technique) in techniques() {
+        let is_shown = |text: &str| text.contains(known.name);
+        let scene = GALLERY.iter().find(|scene| scene.name == technique.shown[0]);
+        assert!(scene.is_some_and(|scene| is_shown(scene.text) || known.name == "fixed"), "{technique:?}");
+    }
 }
 
-/// Two more files that know of an effect are found, whichever way they name it.
+/// One file more that knows of an effect is found.
 #[test]
 fn an_effect_that_is_scattered_is_found() {
     for text in [
@@ -87,11 +85,12 @@ fn an_effect_that_is_scattered_is_found() {
         "const MESSAGE: &str = \"take `stipple` out\";",
         "fn is_free(stage: &str) -> bool { stage == \"stipple\" }",
     ] {
-        let mut sources = sources();
-        for file in ["render/draw/free.rs", "render/measure/free.rs"] {
-            sources.insert(file.to_owned(), text.to_owned());
+        for file in ["render/draw/free.rs", "render/measure/auto.rs", "cli/explain.rs"] {
+            let mut sources = sources();
+            sources.entry(file.to_owned()).or_default().insert_str(0, &format!("{text}\n"));
+            assert_eq!(scattered(&sources), [("stipple", vec![file])], "{text}");
         }
-        let found = scattered(&sources);
-        assert_eq!(found.iter().map(|(name, _)| *name).collect::<Vec<_>>(), ["stipple"], "{text}");
     }
+    let prefix = "fn check(effects: &Effects) -> bool { effects.fixed_x.is_some() }";
+    assert_eq!(scattered(&Sources::from([("render/draw/free.rs".to_owned(), prefix.to_owned())])), []);
 }

@@ -1,5 +1,6 @@
-//! Every WGSL function has a twin in Rust that is found by its name.
+//! Every WGSL function, in a file or in a string of an effect, has a twin in Rust that is found by its name.
 
+use proc_macro2::{TokenStream, TokenTree};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -42,9 +43,27 @@ fn declared(text: &str) -> Vec<String> {
         .collect()
 }
 
-/// The WGSL functions, those in strings of the wing `shader` among them, that have no twin.
+/// The WGSL functions in string literals of Rust code.
+fn in_strings(tokens: TokenStream) -> Vec<String> {
+    let of_token = |token| match token {
+        TokenTree::Group(group) => in_strings(group.stream()),
+        TokenTree::Literal(literal) => declared(&literal.to_string()),
+        TokenTree::Ident(_) | TokenTree::Punct(_) => Vec::new(),
+    };
+    tokens.into_iter().flat_map(of_token).collect()
+}
+
+/// The WGSL functions that effects bring with them.
+fn of_effects() -> BTreeSet<String> {
+    let mut paths = Vec::new();
+    files(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src/render/effect"), "rs", &mut paths);
+    let parsed = |path: &PathBuf| fs::read_to_string(path).expect("a source file").parse().expect("Rust");
+    paths.iter().flat_map(|path| in_strings(parsed(path))).collect()
+}
+
+/// The WGSL functions that have no twin.
 fn without_namesake(wgsl: &BTreeSet<String>) -> Vec<String> {
-    let rust = functions(&["threshold", "technique", "cost", "shader/gpu"], "rs");
+    let rust = functions(&["threshold", "technique", "render/effect", "cost", "shader/gpu"], "rs");
     wgsl.iter().filter(|name| !rust.contains(*name)).cloned().collect()
 }
 
@@ -52,6 +71,9 @@ fn without_namesake(wgsl: &BTreeSet<String>) -> Vec<String> {
 fn every_wgsl_function_has_a_namesake_in_rust() {
     let mut wgsl = functions(&[""], "wgsl");
     assert!(wgsl.len() > 60, "{wgsl:?}");
+    let of_effects = of_effects();
+    assert!(of_effects.contains("sharpened"), "{of_effects:?}");
+    wgsl.extend(of_effects);
     let reasons: BTreeMap<_, _> = EXCEPTIONS.into_iter().collect();
     assert!(reasons.len() <= 8);
     let excepted: Vec<_> = reasons.keys().map(|name| (*name).to_owned()).collect();
@@ -65,4 +87,6 @@ fn every_wgsl_function_has_a_namesake_in_rust() {
 fn declarations_are_found_and_calls_are_not() {
     let text = "// fn commented() \npub fn one<R>() {}\n    const fn two(x: u32) {} fn three() { four(); }\n";
     assert_eq!(declared(text), ["one", "two", "three"]);
+    let code = "const TEXT: &str = \"\nfn five(x: f32) -> f32 { return x; }\n\"; fn six() {}";
+    assert_eq!(in_strings(code.parse().expect("Rust")), ["five"]);
 }

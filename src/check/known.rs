@@ -41,11 +41,17 @@ pub enum Who {
     },
 }
 
-/// As in "paper:isotropic in f32".
+/// As in "paper:isotropic in f32" or "the paper's listings (anisotropic) in f32, f64".
 impl fmt::Display for Who {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Listing { .. } => f.write_str("the paper's listings"),
+            Self::Listing { variants, precisions } => {
+                let names = |all: Vec<String>| all.join(", ");
+                let variants = names(variants.iter().map(ToString::to_string).collect());
+                let precisions =
+                    names(precisions.iter().map(|precision| precision.name().to_owned()).collect());
+                write!(f, "the paper's listings ({variants}) in {precisions}")
+            }
             Self::Subject { name, precision } => write!(f, "{name} in {precision}"),
         }
     }
@@ -97,11 +103,7 @@ pub fn mark(outcomes: &mut [Outcome], list: &[Known]) {
 /// does not.
 #[must_use]
 pub fn listing_fails(outcome: &Outcome) -> Option<&'static str> {
-    let known = OF_THE_LISTINGS.iter().find(|known| known.is_about(outcome))?;
-    match &known.reason {
-        Cow::Borrowed(reason) => Some(reason),
-        Cow::Owned(_) => None,
-    }
+    OF_THE_LISTINGS.iter().find(|known| known.is_about(outcome)).map(|known| known.reason.as_ref())
 }
 
 /// A claim that listings are known to fail.
@@ -140,8 +142,8 @@ pub const OF_THE_LISTINGS: &[Known] = &[
         "range",
         LISTING_2,
         BOTH,
-        "Listing 2 divides by zero where neither derivative moves along an axis: NaN on axis- \
-                 aligned planes",
+        "Listing 2 divides by zero where neither derivative moves along an axis: NaN on axis-aligned \
+         planes",
     ),
     fails(
         "uniform.constant_z",
@@ -165,8 +167,8 @@ pub const OF_THE_LISTINGS: &[Known] = &[
         "coverage.mean_aligned",
         LISTING_2,
         BOTH,
-        "Listing 2 divides by zero where neither derivative moves along an axis: NaN on axis- \
-                 aligned planes",
+        "Listing 2 divides by zero where neither derivative moves along an axis: NaN on axis-aligned \
+         planes",
     ),
     fails(
         "range.degenerate",
@@ -283,8 +285,8 @@ pub const OF_THE_LISTINGS: &[Known] = &[
         "stability.translate_aligned",
         LISTING_2,
         BOTH,
-        "Listing 2 divides by zero where neither derivative moves along an axis: NaN on axis- \
-                 aligned planes",
+        "Listing 2 divides by zero where neither derivative moves along an axis: NaN on axis-aligned \
+         planes",
     ),
     fails(
         "independence.octaves",

@@ -48,7 +48,8 @@ impl fmt::Display for Verdict {
 /// [`diagnosis`](super::diagnosis) all read it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Standing {
-    /// The answer speaks against the subject: a claim is rejected, or a negative control is not.
+    /// The answer speaks against the subject: a claim is rejected that no list of known findings names, or a negative control
+    /// is not rejected.
     Against,
     /// There should be an answer, and there is none: too few samples, or the subject could not be run.
     Unanswered,
@@ -181,7 +182,7 @@ pub fn worst(outcomes: &[Outcome]) -> Standing {
 /// The verdict, the claim, what was seen, and by what numbers.
 impl fmt::Display for Outcome {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {} ({})\n  claim: {}", self.verdict, self.check, self.anchor, self.statement)?;
+        write!(f, "{}: {} ({})\n  claim: {}", self.answer(), self.check, self.anchor, self.statement)?;
         if let Some(seen) = &self.seen {
             write!(f, "\n  seen: {seen}")?;
         }

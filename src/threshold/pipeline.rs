@@ -24,7 +24,7 @@ pub use super::stage::order::FrameStrata;
 pub use super::stage::screen_door::ScreenDoor;
 
 /// Where the threshold of a fragment comes from, and what becomes of it. Stages act in the order of the fields; what is
-/// `None` does nothing.
+/// `None` does nothing, and `form` is that of all of them.
 ///
 /// ```
 /// use hashed_alpha::threshold::pipeline::{FadeIn, Inputs, Pipeline};
@@ -225,7 +225,7 @@ impl Pipeline {
             out = [self.in_frame(self.of_source(inputs, random), inputs.frame)];
         }
         if let Some(strata) = self.sample_strata {
-            let words = || self.fragment_words(inputs.pixel, inputs.frame, inputs.layer);
+            let words = || fragment_words(self.cycle(), inputs.pixel, inputs.frame, inputs.layer);
             strata.thresholds(self.form, inputs.pixel, words, random, sample, &mut out);
         }
         self.finish(&mut out, || (inputs.lod, inputs.texel));
@@ -249,6 +249,12 @@ impl Pipeline {
     ) {
         let samples = self.samples().get() as usize;
         let fragments = out.len() / samples;
+        assert!(
+            out.len().is_multiple_of(samples),
+            "{} thresholds for {samples} samples a fragment",
+            out.len()
+        );
+        inputs.expect_length(fragments, self.reads());
         if self.uses_source() {
             let chi = &mut out[..fragments];
             self.columns_of_source(tier, inputs, random, chi);
@@ -259,10 +265,10 @@ impl Pipeline {
         if let Some(strata) = self.sample_strata {
             // From the last to the first, so that none is overwritten before it is moved.
             (0..fragments).rev().for_each(|at| out[at * samples] = out[at]);
-            let reads_pixel = self.reads().pixel;
+            let (reads_pixel, cycle) = (self.reads().pixel, self.cycle());
             for (at, out) in out.chunks_exact_mut(samples).enumerate() {
                 let pixel = if reads_pixel { inputs.pixel[at] } else { [0; 2] };
-                let words = || self.fragment_words(pixel, inputs.frame, inputs.layer[at]);
+                let words = || fragment_words(cycle, pixel, inputs.frame, inputs.layer[at]);
                 strata.thresholds(self.form, pixel, words, random, 0, out);
             }
         }
@@ -328,12 +334,6 @@ impl Pipeline {
         self.frame_strata.map_or(chi, |strata| strata.threshold(self.form, chi, frame))
     }
 
-    /// Four words that belong to one fragment, and to its frame among those that thresholds repeat after.
-    fn fragment_words(&self, [x, y]: [u32; 2], frame: u32, layer: u32) -> [u32; 4] {
-        let frame = self.cycle().map_or(frame, |frames| (u64::from(frame) % frames) as u32);
-        pcg4d([x, y, frame, layer])
-    }
-
     /// Fading, and the clamp that is last; `place` is level of detail and lengths.
     fn finish<R: Real>(&self, thresholds: &mut [R], place: impl FnOnce() -> (R, [R; 2])) {
         if let Some(fade_in) = self.fade_in {
@@ -348,19 +348,25 @@ impl Pipeline {
 
     /// Whether the clamp has something left to do: stable stages end with it.
     pub(crate) fn clamps(&self) -> bool {
+        let is_fresh = self.sample_strata.is_some_and(|strata| strata.pattern == SamplePattern::Independent);
         let is_kept = matches!(self.source, Source::Fixed(_) | Source::Stipple { .. } | Source::Given);
         let is_clamped = self.fade_in.is_some()
             || match self.sample_strata {
-                Some(strata) => strata.pattern != SamplePattern::Independent,
+                Some(_) => !is_fresh,
                 None => self.frame_strata.is_some(),
             };
-        self.form == CdfForm::Stable && !is_kept && !is_clamped
+        self.form == CdfForm::Stable && (is_fresh || !is_kept) && !is_clamped
     }
 
     /// Whether anything comes of the source: the samples of some patterns have thresholds without it.
     #[must_use]
     pub fn uses_source(&self) -> bool {
         self.sample_strata.is_none_or(|strata| strata.pattern.uses_source())
+    }
+
+    /// The frames with hashes of their own, if there is a hash.
+    fn independence_of_hash(&self) -> Option<Independence> {
+        self.independence.filter(|_| self.uses_source() && matches!(self.source, Source::Hash(_)))
     }
 
     /// Returns what is read of a fragment.
@@ -375,7 +381,8 @@ impl Pipeline {
         Reads {
             footprint: is(matches!(self.source, Source::Hash(_))),
             pixel: door || permuted || pattern == Some(SamplePattern::ByPixel),
-            frame: is(self.frame_strata.is_some() || self.independence.is_some()) || (stochastic && permuted),
+            frame: is(self.frame_strata.is_some() || self.independence_of_hash().is_some())
+                || (stochastic && permuted),
             layer: permuted || is(self.source == Source::ScreenDoor(ScreenDoor::Randomised)),
             lod: self.fade_in.is_some(),
             texel: self.fade_in.is_some_and(|fade_in| fade_in.anisotropy),
@@ -418,9 +425,36 @@ impl Pipeline {
         if self.randoms() > 0 {
             return None;
         }
-        let frames = |frames: Option<NonZeroU32>| u64::from(frames.map_or(1, NonZeroU32::get));
-        let [a, b] = [self.frame_strata.map(|s| s.frames), self.independence.map(|i| i.frames)].map(frames);
+        let strata = self.frame_strata.filter(|_| self.uses_source()).map(|strata| strata.frames);
+        let hashes = self.independence_of_hash().map(|independence| independence.frames);
+        let [a, b] = [strata, hashes].map(|frames| frames.map_or(1, NonZeroU32::get));
+        let (mut divisor, mut rest) = (a, b);
+        while rest != 0 {
+            (divisor, rest) = (rest, divisor % rest);
+        }
         // The least number that both divide.
-        (1..=b).map(|times| times * a).find(|multiple| multiple % b == 0)
+        Some(u64::from(a / divisor) * u64::from(b))
     }
+}
+
+impl<R: Lane> InputColumns<'_, R> {
+    /// Panics if a column that is read does not have as many entries as there are fragments.
+    fn expect_length(&self, fragments: usize, reads: Reads) {
+        for (what, is_read, length) in [
+            ("footprints", reads.footprint, self.footprint.len()),
+            ("pixels", reads.pixel, self.pixel.len()),
+            ("layers", reads.layer, self.layer.len()),
+            ("levels of detail", reads.lod, self.lod.len()),
+            ("changes of texture coordinates", reads.texel, self.texel.len()),
+            ("given thresholds", reads.given, self.given.len()),
+        ] {
+            assert!(!is_read || length == fragments, "{length} {what} for {fragments} fragments");
+        }
+    }
+}
+
+/// Four words that belong to one fragment, and to its frame among those that thresholds repeat after.
+fn fragment_words(cycle: Option<u64>, [x, y]: [u32; 2], frame: u32, layer: u32) -> [u32; 4] {
+    let frame = cycle.map_or(frame, |frames| (u64::from(frame) % frames) as u32);
+    pcg4d([x, y, frame, layer])
 }

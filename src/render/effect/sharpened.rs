@@ -1,6 +1,9 @@
 //! Alpha sharpened by its screen derivative before alpha to coverage (Golus 2017): "alpha to coverage" of a blurred edge
 //! spreads it over as many pixels as the texture is magnified; divided by its change from pixel to pixel, alpha rises from
 //! 0 to 1 within one pixel around a cutoff, whatever the distance.
+//!
+//! A short effect to start a new one from. [`Phase`] has the three kinds of stages, `draw/setup.rs` what a stage before shading may
+//! change, `draw/work.rs` the columns of a tile, [`Role`] what effects are to each other, [`Text`] what shader text has of them.
 
 use super::kind::{About, Bound, Cost, Effect, Per, Phase, Plan, Role, Rules, Text, techniques, tell};
 use crate::render::draw::work::{Shading, Work};
@@ -68,8 +71,9 @@ pub fn sharpened(alpha: f32, cutoff: f32, width: f32) -> f32 {
     ((alpha - cutoff) / width.max(LEAST_WIDTH) + 0.5).clamp(0.0, 1.0)
 }
 
-/// Sharpens the alphas that are tested. Derivatives are differences to the alpha at the texture coordinate one pixel on along
-/// each screen axis, read at the level of the fragment, as the lanes of a quad have it.
+/// Sharpens the alphas that are tested. Derivatives are forward differences, each fragment its own: to the alpha at the texture
+/// coordinate one pixel on along each screen axis, at the level of the fragment. (The lanes of a hardware quad share theirs.)
+/// The two reads more are in the price that the plan states.
 fn sharpen(shading: &Shading<'_>, work: &mut Work, cutoff: f32) {
     let Work { fragments, access, alpha, tested, .. } = work;
     for (at, tested) in tested.iter_mut().enumerate() {
@@ -86,6 +90,7 @@ fn sharpen(shading: &Shading<'_>, work: &mut Work, cutoff: f32) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::shader::interpreter::{Column, DeviceModel, Program, Values};
 
     #[test]
     fn a_linear_edge_becomes_one_pixel_wide_whatever_its_slope() {
@@ -96,6 +101,23 @@ mod tests {
             {
                 assert!((of(pixels) - wanted).abs() < 1e-4, "{slope} {pixels}: {}", of(pixels));
             }
+        }
+    }
+
+    /// Cutoffs that are not 1/2, and widths below the least and above it.
+    #[test]
+    fn the_text_for_shaders_computes_the_same() {
+        let module = naga::front::wgsl::parse_str(TEXT).unwrap();
+        let info =
+            naga::valid::Validator::new(Default::default(), Default::default()).validate(&module).unwrap();
+        let program = Program::compile(&module, &info, "sharpened").unwrap();
+        for (cutoff, width) in [(0.5_f32, 0.0_f32), (0.3, 0.00005), (0.3, 0.0002), (0.8, 0.05), (0.1, 0.7)] {
+            let alphas: Vec<f32> =
+                (0..=200).map(|k| cutoff + (k - 100) as f32 * width.max(0.0001) * 0.01).collect();
+            let columns = [Column::F32(&alphas), Column::F32(&[cutoff]), Column::F32(&[width])];
+            let found = program.run(&columns, alphas.len(), &DeviceModel::ACCURATE).unwrap();
+            let expected = alphas.iter().map(|&alpha| sharpened(alpha, cutoff, width)).collect();
+            assert_eq!(found, [Values::F32(expected)], "{cutoff} {width}");
         }
     }
 
