@@ -127,13 +127,6 @@ fn functions_beside_the_threshold_are_those_of_rust() {
             cosine_direction([x, y].map(fraction))[axis]
         });
     }
-    #[cfg(feature = "render")]
-    {
-        use hashed_alpha::render::effect::sharpened::{TEXT, sharpened};
-        expect(found(TEXT, "sharpened(fract(p.x), 0.3, fract(p.y))"), &|[x, y, _]| {
-            sharpened(fraction(x) as f32, 0.3, fraction(y) as f32).into()
-        });
-    }
 }
 
 #[test]

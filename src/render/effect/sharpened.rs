@@ -26,8 +26,8 @@ impl Default for Sharpened {
 /// The least change of alpha from pixel to pixel that is divided by.
 const LEAST_WIDTH: f32 = 0.0001;
 
-/// The twin of [`sharpened`] that a shader calls before it tests alpha.
-pub const TEXT: &str = "
+/// The twin of [`sharpened`].
+const TEXT: &str = "
 // Alpha that is 1/2 at the cutoff and rises from 0 to 1 within a pixel; `width` is fwidth(alpha). Golus 2017.
 fn sharpened(alpha: f32, cutoff: f32, width: f32) -> f32 {
     return clamp((alpha - cutoff) / max(width, 0.0001) + 0.5, 0.0, 1.0);
