@@ -149,7 +149,12 @@ impl Screen {
                     let place = [2.0 * centre.x / width - 1.0, 1.0 - 2.0 * centre.y / height, 0.0];
                     (place, [2.0 / width, 0.0, 0.0], [0.0, -2.0 / height, 0.0])
                 }
-                _ => {
+                Space::Object
+                | Space::Deformed
+                | Space::Part
+                | Space::World
+                | Space::Texture
+                | Space::Eye => {
                     let place = triangle.place.map(value);
                     let [dx, dy] =
                         [0, 1].map(|axis| [0, 1, 2].map(|c| derivative(triangle.place[c], place[c], axis)));

@@ -48,8 +48,12 @@ impl Effect for AlphaToCoverage {
         let rules = Rules::of(&[Role::Test, Role::Samples, Role::Varied]).samples(self.samples);
         match self.pattern {
             SamplePattern::Independent => rules.needs(Role::Fresh, "thresholds that are drawn anew"),
-            pattern if pattern.uses_source() => rules.needs(Role::Noise, "a hashed or random threshold"),
-            _ => rules.never(Role::Threshold, "that pattern needs no threshold"),
+            SamplePattern::Jittered | SamplePattern::Decorrelated | SamplePattern::Shuffled => {
+                rules.needs(Role::Noise, "a hashed or random threshold")
+            }
+            SamplePattern::Regular | SamplePattern::Hardware | SamplePattern::ByPixel => {
+                rules.never(Role::Threshold, "that pattern needs no threshold")
+            }
         }
     }
 
