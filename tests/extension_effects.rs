@@ -28,12 +28,13 @@ fn may_know(path: &str) -> bool {
 /// The files that name the table of an effect: its module, its field in a set, or its key in a string.
 fn files<'a>(sources: &'a Sources, effect: &str) -> Vec<&'a str> {
     let ends = |rest: &str| !rest.starts_with(|c: char| c.is_alphanumeric() || c == '_');
-    let words =
-        ["effect::", "effects.", "set.", "rest.", "`", "\""].map(|before| format!("{before}{effect}"));
+    let paths = ["effect::", "effects.", "set.", "rest."].map(|before| format!("{before}{effect}"));
+    let quoted = ["`E`", "`E.", "\"E\"", "\"E ="].map(|key| key.replace('E', effect));
     let has = |text: &str| {
         let code = code(text);
-        let found = |word: &String| code.match_indices(word).any(|(at, _)| ends(&code[at + word.len()..]));
-        words.iter().any(found)
+        let is_path =
+            |word: &String| code.match_indices(word.as_str()).any(|(at, _)| ends(&code[at + word.len()..]));
+        paths.iter().any(is_path) || quoted.iter().any(|key| code.contains(key))
     };
     let [own, list] = [format!("render/effect/{effect}.rs"), "render/effect/mod.rs".to_owned()];
     let names = |path: &str, text: &str| {
