@@ -83,7 +83,7 @@ fn chain<R: Real>(footprint: Footprint<R>, options: u64, hash_scale: f64, [lod, 
         chained = match options >> (32 + 8 * step) & 7 {
             0 => stratify::stratified(chained, stratify::alternating(frame, n), n),
             1 => coverage::jittered(chained, coverage::decorrelated([threshold, chained], frame, n), n),
-            2 => fade_in::fade_in(0.5, chained, share),
+            2 => fade_in::fade_in(R::from_f64(0.5), chained, share),
             3 => clamp::clamp_last(coverage::regular(frame % n, n)),
             _ => chained,
         };
