@@ -217,7 +217,8 @@ impl Pipeline {
     /// Returns the threshold of a sample of a fragment. `random` draws a fresh word; it is called by [`Source::Stochastic`]
     /// and [`SamplePattern::Independent`] alone.
     ///
-    /// In [2^-24, 1] where [`form`](Self::form) is stable, but for the sources named there and NaN of a listing.
+    /// In [2^-24, 1] where [`form`](Self::form) is stable, but for the sources named there, and NaN where the source has no
+    /// threshold: a listing, or a robust one without a finite footprint or with a hash scale that is no size.
     #[must_use]
     pub fn threshold<R: Real>(&self, inputs: &Inputs<R>, sample: u32, random: &mut impl FnMut() -> u32) -> R {
         let mut out = [R::from_f64(0.5)];
