@@ -17,7 +17,7 @@ const PASSES: usize = 3;
 /// What a power of two costs, in digits: it is exact where a decimal of two digits is not.
 const POWER_OF_TWO: usize = 2;
 
-/// Numbers of a footprint.
+/// Numbers of a footprint, in a row.
 const COLUMNS: usize = 9;
 
 /// Returns numbers as simple as possible that fail together as the first ones do: zeros, powers of two and short decimals near
