@@ -113,7 +113,7 @@ fn lines(
         fragments.extend((0..=SCAN_STEPS).map(|k| patch.fragment(subject, &start, step * f64::from(k))));
     }
     let values = subject.thresholds(&fragments);
-    reject_outsiders(&fragments, &values)?;
+    reject_outsiders(subject, &fragments, &values)?;
     for (line, values) in lines.iter_mut().zip(values.chunks_exact(SCAN_STEPS as usize + 1)) {
         line.changes = values.windows(2).filter(|pair| pair[0] != pair[1]).count() as f64;
     }

@@ -134,7 +134,7 @@ fn measured<T, P>(
                 let fragments: Vec<Fragment> =
                     (0..IMAGES_A_PATCH).flat_map(|_| patch.image(subject, SIZE, spacing, &mut rng)).collect();
                 let mut values = subject.thresholds(&fragments);
-                reject_outsiders(&fragments, &values)?;
+                reject_outsiders(subject, &fragments, &values)?;
                 values.iter_mut().for_each(|value| *value -= MEAN);
                 let prepared = prepare(&|lag| {
                     let pixels = DVec2::from_array(lag.map(|l| l as f64)) * spacing;
