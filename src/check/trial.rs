@@ -6,6 +6,7 @@ use crate::check::{Evidence, Subject};
 use crate::scene::Fragment;
 use crate::stats::chi_square::ChiSquare;
 use crate::stats::power;
+use std::collections::BTreeMap;
 
 /// What a trial reached, or the trial that ended it early.
 pub type Attempt<T> = Result<T, Box<Trial>>;
@@ -102,16 +103,26 @@ impl Trial {
             n,
             effect: Some(worst.effect),
             effect_name: "excess chi-square per sample",
-            detectable: Some(power::detectable_effect_chi_square(
-                worst.dof,
-                worst.n,
-                SINGLE_LEVEL / tests.len() as f64,
-                POWER,
-            )),
+            detectable: detectable_excess(tests),
             seen,
             evidence,
         }
     }
+}
+
+/// The smallest excess chi-square per sample that would be seen wherever it were: by the least sensitive of the tests, which
+/// has the fewest samples of those with the most degrees of freedom.
+fn detectable_excess(tests: &[ChiSquare]) -> Option<f64> {
+    let mut fewest: BTreeMap<u64, u64> = BTreeMap::new();
+    for test in tests {
+        let n = fewest.entry(test.dof).or_insert(test.n);
+        *n = (*n).min(test.n);
+    }
+    let level = SINGLE_LEVEL / tests.len() as f64;
+    fewest
+        .into_iter()
+        .map(|(dof, n)| power::detectable_effect_chi_square(dof, n, level, POWER))
+        .reduce(f64::max)
 }
 
 /// The smallest share of bad samples of which at least one is among `n` with power 0.999.

@@ -50,6 +50,11 @@ impl TryRng for Ideal {
     }
 }
 
+/// The ideal source that belongs to a name.
+pub fn ideal(name: &str) -> Ideal {
+    Ideal::new(name)
+}
+
 /// Asserts that a thousand p-values are uniform, and that not too many are below 1e-3.
 ///
 /// `replica` gets the ideal source that belongs to `name` and returns one p-value. To be asked only of laws that

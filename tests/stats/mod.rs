@@ -17,5 +17,6 @@ mod power;
 mod seed;
 mod sequential;
 mod spectrum;
+mod tails;
 mod two_sample;
 mod variance;

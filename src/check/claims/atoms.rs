@@ -1,12 +1,12 @@
 //! Values that come up more often than their share.
 
-use crate::check::input::at_scale;
+use crate::check::input::{Start, at_scale};
 use crate::check::judge::detectable_factor;
 use crate::check::tolerance::{POWER, SINGLE_LEVEL, SPREAD};
 use crate::check::trial::reject_outsiders;
 use crate::check::{Attempt, Claim, Conclusion, Draw, Evidence, Promise, Subject, Trial, Verdict};
+use crate::scene::Fragment;
 use crate::stats::{binomial, power, seed};
-use crate::threshold::footprint::Footprint;
 use glam::{DVec3, dvec3};
 use rand::rngs::Xoshiro256PlusPlus;
 
@@ -55,10 +55,10 @@ fn block_of_cells(
     let corner = (corner * SPREAD).floor() + DVec3::splat(0.25);
     let [nx, ny, _] = ATOM_BLOCK;
     for z in 0..layers {
-        let layer: Vec<Footprint<f64>> = (0..nx * ny)
+        let layer: Vec<Fragment> = (0..nx * ny)
             .map(|i| corner + dvec3(f64::from(i % nx), f64::from(i / nx), f64::from(z)))
             .map(|position| at_scale(subject.variant, subject.hash_scale, position, [0.0; 3]))
-            .map(|footprint| subject.precision.round(&footprint))
+            .map(|footprint| Start::draw(&mut rng).seeing(subject.precision.round(&footprint)))
             .collect();
         let values = subject.thresholds(&layer);
         reject_outsiders(subject, &layer, &values)?;

@@ -1,11 +1,12 @@
 //! Cells in odd places: around the origin, far away, and in the mirror.
 
 use crate::check::evidence::NamedHistogram;
-use crate::check::input::{UsedCells, at_scale, draw_cell};
+use crate::check::input::{Start, UsedCells, at_scale, draw_cell};
 use crate::check::judge::{histogram, uncorrelated};
 use crate::check::tolerance::{DRAWS_A_SAMPLE, FAMILY_LEVEL, POWER, SINGLE_LEVEL};
 use crate::check::trial::reject_outsiders;
 use crate::check::{Attempt, Claim, Conclusion, Draw, Evidence, Promise, Subject, Trial, Verdict};
+use crate::scene::Fragment;
 use crate::stats::chi_square::{self, ChiSquare};
 use crate::stats::{correlation, ecdf, power, seed};
 use crate::threshold::footprint::Footprint;
@@ -69,13 +70,14 @@ fn origin(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     for octant in 0..8_u32 {
         let sign = DVec3::from_array([1, 2, 4].map(|bit| if octant & bit == 0 { 1.0 } else { -1.0 }));
         // All weight on one octave, so that no two of the thresholds share a hash.
-        let samples: Vec<Footprint<f64>> = ORIGIN_OCTAVES
+        let samples: Vec<Fragment> = ORIGIN_OCTAVES
             .map(|octave| {
                 let side = libm::exp2(f64::from(-octave));
                 let mut part = || side * (seed::uniform01(&mut rng) + 1.0) / 1024.0;
                 let position = dvec3(part(), part(), part()) * sign;
                 let scale = [f64::from(octave); 3];
-                subject.precision.round(&at_scale(subject.variant, subject.hash_scale, position, scale))
+                let found = at_scale(subject.variant, subject.hash_scale, position, scale);
+                Start::draw(&mut rng).seeing(subject.precision.round(&found))
             })
             .collect();
         let mut values = subject.thresholds(&samples);
@@ -146,7 +148,7 @@ fn window_samples(
     offset: DVec3,
     n: usize,
     rng: &mut Xoshiro256PlusPlus,
-) -> Vec<Footprint<f64>> {
+) -> Vec<Fragment> {
     let mut used = UsedCells::default();
     let mut samples = Vec::with_capacity(n);
     for _ in 0..n * DRAWS_A_SAMPLE {
@@ -156,7 +158,7 @@ fn window_samples(
         let within = WINDOW_SIZE.map(|size| (seed::uniform01(rng) * size).floor());
         let position = offset + DVec3::from_array(within);
         let sample = at_scale(subject.variant, subject.hash_scale, position, [0.0; 3]);
-        let sample = subject.precision.round(&sample);
+        let sample = Start::draw(rng).seeing(subject.precision.round(&sample));
         if used.claim(subject, &[sample]) {
             samples.push(sample);
         }
@@ -174,16 +176,16 @@ fn mirror(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     let mut rng = draw.rng(MIRROR.id);
     let mut used = UsedCells::default();
     let pairs = draw.samples(MIRROR_PAIRS);
-    let mut samples: Vec<Footprint<f64>> = Vec::with_capacity(4 * pairs);
+    let mut samples: Vec<Fragment> = Vec::with_capacity(4 * pairs);
     while samples.len() < 4 * pairs {
         let cell = draw_cell(&mut rng);
         // Corners of cells, so that the mirrored position is the corner of the mirrored cell.
         let first = at_scale(subject.variant, subject.hash_scale, cell, fractions(&mut rng));
         // All cells that are their own image have x = y.
         let on_a_mirror = cell.x == cell.y;
-        let image = |map: Symmetry| {
+        let mut image = |map: Symmetry| {
             let [position, dpdx, dpdy] = [first.position, first.dpdx, first.dpdy].map(map);
-            subject.precision.round(&Footprint { position, dpdx, dpdy })
+            Start::draw(&mut rng).seeing(subject.precision.round(&Footprint { position, dpdx, dpdy }))
         };
         let group = [image(|v| v), image(SYMMETRIES[0].1), image(SYMMETRIES[1].1), image(SYMMETRIES[2].1)];
         if !on_a_mirror && used.claim(subject, &group) {

@@ -1,12 +1,14 @@
 //! The threshold moves without jumps while the view of a fixed point of the surface does.
 //!
 //! Only the derivatives change: the position stays in its cells. Between two views the threshold may change by no
-//! more than the join allows for the change of the scales; whatever goes beyond is a *pop*. The dithered join is
+//! more than the join allows for the change of the scales, and the step in which the subject's own values are stored; whatever
+//! goes beyond is a *pop*. The dithered join is
 //! continuous in law only: it may switch once an octave and axis, at a place of its own in every cell.
 
 use crate::check::input::{
-    UsedCells, at_scale, draw_cell, numerator, placement, tangents, tilted, turned, zoomed,
+    Start, UsedCells, at_scale, draw_cell, numerator, placement, tangents, tilted, turned, zoomed,
 };
+use crate::check::judge::Resolution;
 use crate::check::predict::{largest_change, log_scale, octaves_between};
 use crate::check::shrink::describe_pair;
 use crate::check::subject::Nominal;
@@ -139,11 +141,11 @@ fn sweep(subject: &Subject<'_>, draw: &Draw, claim: &str, motion: &Sweep) -> Att
     let mut pops = Pops::default();
     for _ in 0..points {
         let position = placement(rng);
-        let tangents = tangents(rng);
-        let views: Vec<Footprint<f64>> = (0..=motion.steps)
+        let (tangents, start) = (tangents(rng), Start::draw(rng));
+        let views: Vec<Fragment> = (0..=motion.steps)
             .map(|step| {
                 let [dpdx, dpdy] = (motion.derivatives)(tangents, step as f64 / motion.steps as f64);
-                subject.precision.round(&Footprint { position, dpdx, dpdy })
+                start.seeing(subject.precision.round(&Footprint { position, dpdx, dpdy }))
             })
             .collect();
         let thresholds = subject.thresholds(&views);
@@ -155,84 +157,99 @@ fn sweep(subject: &Subject<'_>, draw: &Draw, claim: &str, motion: &Sweep) -> Att
         }
     }
     let motions = points as f64 * motion.length;
-    Ok(pops.into_trial(motions, motion.effect_name))
+    Ok(pops.into_trial(subject, motions, motion.effect_name))
 }
 
 /// Changes that are too large, or too many.
 #[derive(Default)]
 struct Pops {
-    count: u64,
+    jumps: Vec<Jump>,
+    /// Where the jump is that goes furthest beyond what is allowed.
+    clearest: Option<(f64, [Fragment; 2])>,
+    values: Resolution,
     steps: u64,
-    sum: f64,
-    largest: f64,
-    first: String,
+}
+
+/// A change that is larger than the join allows.
+struct Jump {
+    values: [f64; 2],
+    /// By how much it goes beyond; infinite where no change was allowed at all.
+    excess: f64,
 }
 
 impl Pops {
-    /// Counts the steps between views that change the threshold by more than the join allows.
-    fn add_jumps(&mut self, subject: &Subject<'_>, views: &[Footprint<f64>], thresholds: &[f64]) {
+    /// Notes the steps between views that change the threshold by more than the join allows.
+    fn add_jumps(&mut self, subject: &Subject<'_>, views: &[Fragment], thresholds: &[f64]) {
         self.steps += views.len() as u64 - 1;
-        let mut before = subject.nominal(&views[0]);
+        self.values.extend(thresholds);
+        let mut before = subject.nominal(&views[0].footprint);
         for step in 1..views.len() {
-            let after = subject.nominal(&views[step]);
-            let jump = (thresholds[step] - thresholds[step - 1]).abs();
-            if jump > largest_change(subject, &before, &after) {
-                let pair = [views[step - 1], views[step]].map(Fragment::from);
-                self.add(jump, || {
-                    describe_pair(subject, &pair, |pair, [old, new]| {
-                        let [before, after] = pair.map(|view| subject.nominal(&view.footprint));
-                        (new - old).abs() > largest_change(subject, &before, &after)
-                    })
-                });
+            let after = subject.nominal(&views[step].footprint);
+            let values = [thresholds[step - 1], thresholds[step]];
+            let excess = (values[1] - values[0]).abs() - largest_change(subject, &before, &after);
+            if excess > 0.0 {
+                self.add(Jump { values, excess }, [views[step - 1], views[step]]);
             }
             before = after;
         }
     }
 
-    /// Counts the switches beyond one an octave and axis.
-    fn add_switches(&mut self, subject: &Subject<'_>, views: &[Footprint<f64>], thresholds: &[f64]) {
+    /// Notes the switches beyond one an octave and axis.
+    fn add_switches(&mut self, subject: &Subject<'_>, views: &[Fragment], thresholds: &[f64]) {
         self.steps += views.len() as u64 - 1;
         let (Some(first), Some(last)) = (views.first(), views.last()) else { return };
-        let ends = [first, last].map(|view| log_scale(&subject.nominal(view)));
+        let ends = [first, last].map(|view| log_scale(&subject.nominal(&view.footprint)));
         let axes = if subject.variant == Variant::Anisotropic { 3 } else { 1 };
         let mut octaves: f64 =
             (0..axes).map(|axis| (ends[1][axis].floor() - ends[0][axis].floor()).abs() + 1.0).sum();
         for step in 1..views.len() {
-            let jump = (thresholds[step] - thresholds[step - 1]).abs();
-            if jump > 0.0 {
+            let values = [thresholds[step - 1], thresholds[step]];
+            if values[0] != values[1] {
                 octaves -= 1.0;
                 if octaves < 0.0 {
-                    let pair = [views[step - 1], views[step]].map(Fragment::from);
-                    self.add(jump, || describe_pair(subject, &pair, |_, [old, new]| old != new));
+                    let jump = Jump { values, excess: f64::INFINITY };
+                    self.add(jump, [views[step - 1], views[step]]);
                 }
             }
         }
     }
 
-    fn add(&mut self, jump: f64, place: impl Fn() -> String) {
-        if self.count == 0 {
-            self.first = place();
+    fn add(&mut self, jump: Jump, views: [Fragment; 2]) {
+        if self.clearest.as_ref().is_none_or(|(excess, _)| jump.excess > *excess) {
+            self.clearest = Some((jump.excess, views));
         }
-        self.count += 1;
-        self.sum += jump;
-        self.largest = self.largest.max(jump);
+        self.jumps.push(jump);
     }
 
-    fn into_trial(self, motions: f64, effect_name: &'static str) -> Trial {
-        let rate = self.count as f64 / motions;
+    fn into_trial(self, subject: &Subject<'_>, motions: f64, effect_name: &'static str) -> Trial {
+        let step = self.values.steps();
+        let is_pop = |jump: &&Jump| jump.excess > step(jump.values);
+        let pops = || self.jumps.iter().filter(is_pop);
+        let sizes = || pops().map(|Jump { values: [old, new], .. }| (new - old).abs());
+        let count = pops().count() as u64;
+        let rate = count as f64 / motions;
+        let example = self.clearest.filter(|_| count > 0).map_or_else(String::new, |(excess, pair)| {
+            let shown = describe_pair(subject, &pair, |pair, values| {
+                if excess.is_infinite() {
+                    return values[0] != values[1];
+                }
+                let [before, after] = pair.map(|view| subject.nominal(&view.footprint));
+                (values[1] - values[0]).abs() > largest_change(subject, &before, &after) + step(values)
+            });
+            format!("; as in {shown}")
+        });
         Trial {
-            conclusion: Conclusion::Exact { holds: self.count == 0 },
-            statistic: Some(self.count as f64),
+            conclusion: Conclusion::Exact { holds: count == 0 },
+            statistic: Some(count as f64),
             statistic_name: "pops".into(),
             n: self.steps,
             effect: Some(rate),
             effect_name,
             detectable: Some(detectable_share(motions)),
             seen: format!(
-                "{rate:.3} {effect_name}, by {:.3} in the mean and {:.3} at most; as in {}",
-                self.sum / self.count as f64,
-                self.largest,
-                self.first
+                "{rate:.3} {effect_name}, by {:.3} in the mean and {:.3} at most{example}",
+                sizes().sum::<f64>() / count as f64,
+                sizes().fold(0.0, f64::max),
             ),
             evidence: Evidence::None,
         }
@@ -254,12 +271,12 @@ fn octave_boundary(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
             reject_outsiders(subject, &views, &thresholds)?;
             pops.add_jumps(subject, &views, &thresholds);
             changes += thresholds.windows(2).filter(|pair| pair[0] != pair[1]).count() as u64;
-            let nominal: Vec<Nominal> = views.iter().map(|view| subject.nominal(view)).collect();
+            let nominal: Vec<Nominal> = views.iter().map(|view| subject.nominal(&view.footprint)).collect();
             expected += nominal.windows(2).flat_map(|pair| octaves_between(&pair[0], &pair[1])).sum::<f64>();
         }
     }
     let crossings = pops.steps as f64 / f64::from(2 * BOUNDARY_ULPS);
-    let mut trial = pops.into_trial(crossings, "pops per point and power of two");
+    let mut trial = pops.into_trial(subject, crossings, "pops per point and power of two");
     if subject.join == Join::Dithered {
         // A switch falls into a step with the probability of its length.
         trial.conclusion = Conclusion::Probability(binomial::poisson_upper_p(changes, expected));
@@ -270,10 +287,11 @@ fn octave_boundary(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
 /// Footprints of one point whose scale along one axis goes through 2^octave, one rounding at a time.
 ///
 /// The other axes have finer scales in general position, and shorter derivatives in sum.
-fn across_octave(subject: &Subject<'_>, octave: i32, rng: &mut Xoshiro256PlusPlus) -> Vec<Footprint<f64>> {
+fn across_octave(subject: &Subject<'_>, octave: i32, rng: &mut Xoshiro256PlusPlus) -> Vec<Fragment> {
     let side = libm::exp2(f64::from(-octave));
     let position = draw_cell(rng) * side + side * dvec3(0.4, 0.3, 0.6);
     let axis = (3.0 * seed::uniform01(rng)) as usize;
+    let start = Start::draw(rng);
     let [low, high] = OTHER_AXES;
     let log_scale = [0, 1, 2]
         .map(|a| f64::from(octave) + if a == axis { 0.0 } else { low + (high - low) * seed::uniform01(rng) });
@@ -284,7 +302,7 @@ fn across_octave(subject: &Subject<'_>, octave: i32, rng: &mut Xoshiro256PlusPlu
             let mut dpdy = others.dpdx;
             dpdy[axis] = 0.0;
             let dpdx = DVec3::AXES[axis] * ulps_away(subject.precision, at_boundary, ulps);
-            subject.precision.round(&Footprint { position, dpdx, dpdy })
+            start.seeing(subject.precision.round(&Footprint { position, dpdx, dpdy }))
         })
         .collect()
 }

@@ -209,3 +209,35 @@ fn judged(groups: &[Blocks]) -> Trial {
         evidence: Evidence::Quantity { abscissa: "alpha", ordinate: "variance / predicted", points },
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::check::tolerance::SINGLE_LEVEL;
+    use crate::stats::normal;
+    use crate::stats::seed::{rng, uniform01};
+
+    /// Clumps and even coverage are seen alike, at what the claim says that it sees and a tenth more.
+    #[test]
+    fn a_variance_is_judged_on_both_sides() {
+        let mut rng = rng("coverage.tests.variance", 0);
+        let mut trial = |variance: f64| {
+            let mut score = |_| normal::quantile(uniform01(&mut rng).max(1.0e-300)) * variance.sqrt();
+            let blocks = |name| Blocks {
+                name,
+                scores: [(); 3].map(|()| (0..COVERAGE_BLOCKS / 2).map(&mut score).collect()),
+            };
+            judged(&["below", "above"].map(blocks))
+        };
+        let sound = trial(1.0);
+        let p = |trial: &Trial| match trial.conclusion {
+            Conclusion::Probability(p) => p,
+            other => panic!("{other:?}"),
+        };
+        assert!(p(&sound) > 1.0e-3, "{sound:?}");
+        let size = 1.1 * sound.detectable.expect("a size");
+        for variance in [1.0 + size, 1.0 - size] {
+            assert!(p(&trial(variance)) < SINGLE_LEVEL, "{variance}");
+        }
+    }
+}

@@ -1,6 +1,7 @@
 //! Inputs at the edge of the number format: derivatives and positions that are zero, tiny, huge, infinite or NaN, and
 //! surfaces so far from the origin that neighbouring pixels have the same position.
 
+use crate::check::input::Start;
 use crate::check::shrink::describe;
 use crate::check::{Attempt, Claim, Draw, Promise, Subject, Trial, Verdict};
 use crate::scene::Fragment;
@@ -94,29 +95,31 @@ fn is_finite(footprint: &Footprint<f64>) -> bool {
     footprint.position.is_finite() && footprint.dpdx.is_finite() && footprint.dpdy.is_finite()
 }
 
-fn degenerate(subject: &Subject<'_>, _: &Draw) -> Attempt<Trial> {
+fn degenerate(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
+    let mut rng = draw.rng(DEGENERATE.id);
     let (mut n, mut refused, mut outside) = (0_u64, 0_u64, 0_u64);
     let mut first = None;
     for value in VALUES {
         for places in PLACES {
             let footprint = subject.precision.round(&replaced(value, places));
             n += 1;
-            match subject.threshold(footprint) {
+            let fragment = Start::draw(&mut rng).seeing(footprint);
+            match subject.threshold(fragment) {
                 // Only what is not finite may be refused: a pixel with finite derivatives has to be drawn.
                 None if !is_finite(&footprint) => refused += 1,
                 Some(threshold) if is_threshold(threshold) => {}
                 answer => {
                     outside += 1;
-                    first.get_or_insert((footprint, answer));
+                    first.get_or_insert((fragment, answer));
                 }
             }
         }
     }
-    let first = first.map_or(String::new(), |(footprint, answer)| {
+    let first = first.map_or(String::new(), |(fragment, answer)| {
         let is_like_it = |_: &Fragment, value: f64| {
             !is_threshold(value) && value.is_nan() == answer.is_none_or(f64::is_nan)
         };
-        format!("; as in {}", describe(subject, &footprint.into(), is_like_it))
+        format!("; as in {}", describe(subject, &fragment, is_like_it))
     });
     let seen = format!("{outside} of {n} answers are no number in (0, 1], {refused} are refusals{first}");
     // A fixed table: what is not on it is not seen.
@@ -133,10 +136,13 @@ fn far_from_origin(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     let (mut n, mut outside) = (0, 0);
     let (mut seen, mut first) = (Vec::new(), None);
     for ratio in FAR_FOOTPRINTS {
-        let quads: Vec<Footprint<f64>> = FAR_COORDINATES
+        let quads: Vec<Fragment> = FAR_COORDINATES
             .into_iter()
             .flat_map(|coordinate| std::iter::repeat_n(coordinate, draw.samples(FAR_QUADS)))
-            .map(|coordinate| far_quad(coordinate, ratio, &mut rng).cast())
+            .map(|coordinate| {
+                let quad = far_quad(coordinate, ratio, &mut rng).cast();
+                Start::draw(&mut rng).seeing(quad)
+            })
             .collect();
         let thresholds = subject.thresholds(&quads);
         let bad = |threshold: &f64| !is_threshold(*threshold);
@@ -147,7 +153,7 @@ fn far_from_origin(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
                     quad.footprint.position.truncate().min_element() >= f64::from(FAR_COORDINATES[0]);
                 is_far && bad(&value) && value.is_nan() == thresholds[at].is_nan()
             };
-            first.get_or_insert_with(|| describe(subject, &quads[at].into(), is_like_it));
+            first.get_or_insert_with(|| describe(subject, &quads[at], is_like_it));
         }
         let share = 100.0 * count as f64 / quads.len() as f64;
         seen.push(format!("{share:.1} % at {ratio}"));

@@ -6,7 +6,7 @@
 
 use crate::check::evidence::ComparedShare;
 use crate::check::input::{
-    Motion, general_scenes, placed, placement, sighting, tangents, tilted, turned, zoomed,
+    Motion, Start, general_scenes, placed, placement, sighting, tangents, tilted, turned, zoomed,
 };
 use crate::check::judge::detectable_error;
 use crate::check::predict::{PairLaw, flip_between};
@@ -177,9 +177,10 @@ fn views(
 ) -> Vec<Fragment> {
     let position = placement(rng);
     let tangents = tangents(rng).map(|tangent| tangent / FINE_VIEWS);
+    let start = Start::draw(rng);
     let view = |step: usize| {
         let [dpdx, dpdy] = derivatives(tangents, step as f64 / FLIP_STEPS as f64);
-        subject.precision.round(&Footprint { position, dpdx, dpdy }).into()
+        start.seeing(subject.precision.round(&Footprint { position, dpdx, dpdy }))
     };
     (0..=FLIP_STEPS).map(view).collect()
 }

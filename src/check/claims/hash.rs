@@ -1,7 +1,7 @@
 //! The hash of single cells, seen through thresholds at whole octaves, where the other octave has no weight.
 
 use crate::check::evidence::NamedHistogram;
-use crate::check::input::{UsedCells, at_scale, draw_cell};
+use crate::check::input::{Start, UsedCells, at_scale, draw_cell};
 use crate::check::judge::{detectable_factor, histogram, uncorrelated};
 use crate::check::tolerance::{DRAWS_A_SAMPLE, FAR_PAIRS, PAIR_BINS};
 use crate::check::trial::reject_outsiders;
@@ -51,7 +51,7 @@ pub const DIFFERENCES: Claim = Claim {
 pub const VALUES: Claim = Claim {
     id: "hash.values",
     anchor: "§5.1; not in the paper",
-    statement: "two cells have the same threshold no more often than among four million values",
+    statement: "two cells have the same threshold no more often than among four million values: noise of 22 bits or more",
     expected: Verdict::Consistent,
     promise: Some(Promise::Root(1.0e-6)),
     run: values,
@@ -90,7 +90,7 @@ fn groups<const N: usize>(
         }
         let group = group(draw_cell(rng));
         if used.claim(subject, &group) {
-            samples.extend(group);
+            samples.extend(group.map(|footprint| Start::draw(rng).seeing(footprint)));
         }
     }
     let values = subject.thresholds(&samples);

@@ -171,3 +171,44 @@ fn behind(
     }
     samples
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::check::tolerance::SINGLE_LEVEL;
+    use crate::check::{Conclusion, Precision};
+    use crate::stats::seed;
+    use crate::threshold::footprint::Footprint;
+    use crate::threshold::two_scale::Variant;
+    use glam::{DVec2, DVec3};
+
+    /// Both of two half-transparent layers are kept too often by so little that no table of pairs shows it.
+    #[test]
+    fn what_both_layers_let_through_is_counted_by_itself() {
+        let subject = Subject::of_fragments("", Precision::F64, Variant::Isotropic, |at| Some(at.texcoord.x));
+        let still = Footprint { position: DVec3::ZERO, dpdx: DVec3::X, dpdy: DVec3::Y };
+        let mut rng = seed::rng("layers.tests.visible", 0);
+        let mut pairs = |excess: f64| -> Vec<Fragment> {
+            let pair = |_| {
+                let both = uniform01(&mut rng) < 0.25 + excess;
+                loop {
+                    let pair = [(); 2].map(|()| uniform01(&mut rng));
+                    if pair.iter().all(|&value| value <= 0.5) == both {
+                        return pair;
+                    }
+                }
+            };
+            let seen = |value| Fragment { texcoord: DVec2::new(value, 0.0), ..Fragment::from(still) };
+            (0..LAYER_SAMPLES / 8).flat_map(pair).map(seen).collect()
+        };
+        let mut p = |excess: f64| {
+            let groups: Vec<Vec<Fragment>> = (0..LAYER_PAIRS).map(|_| pairs(excess)).collect();
+            match both_kept(&subject, groups.into_iter()).expect("thresholds").conclusion {
+                Conclusion::Probability(p) => p,
+                other => panic!("{other:?}"),
+            }
+        };
+        assert!(p(0.0) > 1.0e-3);
+        assert!(p(0.03) < SINGLE_LEVEL);
+    }
+}

@@ -14,7 +14,7 @@ use crate::check::predict::Changes;
 use crate::check::shrink::describe;
 use crate::check::{Attempt, Claim, Conclusion, Draw, Evidence, Promise, Subject, Trial, Verdict};
 use crate::scene::{Camera, Fragment, Raster, Rectangle};
-use crate::stats::poisson_binomial;
+use crate::stats::poisson_binomial::{self, PoissonBinomial};
 use crate::stats::seed::uniform01;
 use glam::{DVec2, DVec3, dvec2, dvec3};
 use rand::rngs::Xoshiro256PlusPlus;
@@ -112,8 +112,7 @@ fn trial(claim: &Claim, offsets: &[f64], subject: &Subject<'_>, draw: &Draw) -> 
             if counts.valid > 0 {
                 let (mean, variance) = (counts.expected.mean, counts.expected.variance());
                 let test = poisson_binomial::sum_of_events(counts.redrawn as u64, mean, variance);
-                // One side: a new threshold too close to the old one is missing from the count.
-                least_p = least_p.min(if test.z > 0.0 { 0.5 * test.p } else { 1.0 });
+                least_p = least_p.min(too_many(&test));
                 worst_z = worst_z.max(test.z);
                 let valid = counts.valid as f64;
                 points.push(ComparedShare {
@@ -148,6 +147,12 @@ fn trial(claim: &Claim, offsets: &[f64], subject: &Subject<'_>, draw: &Draw) -> 
         seen: seen.join("; "),
         evidence: Evidence::Shares { abscissa: "offset of the plane [object units]", points },
     })
+}
+
+/// The probability of so many redrawn thresholds or more. Of fewer nothing is said: a new threshold too close to the old one
+/// is missing from the count, so that this probability is 1 more often than not.
+fn too_many(test: &PoissonBinomial) -> f64 {
+    if test.z > 0.0 { 0.5 * test.p } else { 1.0 }
 }
 
 fn counts(
@@ -221,4 +226,22 @@ fn attempt(normal: usize, offset: f64, rng: &mut Xoshiro256PlusPlus) -> Option<S
     };
     let (before, after) = (rasterised(DVec2::ZERO)?, rasterised(shift)?);
     Some(Seen { before, after, motion: after.world - before.world })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::stats::normal;
+
+    /// One side is half of both, in the bulk and in the tail.
+    #[test]
+    fn too_many_is_one_side() {
+        let (mean, variance) = (2.0e6, 1.0e6);
+        for z in [0.5, 3.0, 7.0] {
+            let test = poisson_binomial::sum_of_events((mean + z * 1.0e3 + 0.5) as u64, mean, variance);
+            let (found, exact) = (too_many(&test), normal::upper_p(z));
+            assert!((found / exact - 1.0).abs() < 0.01, "{z}: {found:e} {exact:e}");
+        }
+        assert_eq!(too_many(&poisson_binomial::sum_of_events(1_990_000, mean, variance)), 1.0);
+    }
 }

@@ -82,7 +82,7 @@ impl Patch {
             eye: start.eye + (place * pixel).extend(place.dot(slopes)),
             pixel: start.pixel + place,
             texcoord: start.texcoord + place * lengths / (2.0 * PLACEMENT),
-            ..Fragment::from(subject.precision.round(&Footprint { position, ..self.footprint() }))
+            ..start.seeing(subject.precision.round(&Footprint { position, ..self.footprint() }))
         }
     }
 
@@ -100,7 +100,16 @@ impl Patch {
     }
 }
 
-/// Where a patch begins, in every coordinate that a subject may hash.
+/// Levels of detail among which that of a place is drawn: a texture of 64 texels, magnified or not.
+const LEVELS: [f64; 2] = [-1.0, 6.0];
+
+/// Layers among which that of a place is drawn.
+const LAYERS: f64 = 4.0;
+
+/// Where something is seen, in every coordinate that a subject may hash besides that of the object.
+///
+/// A claim that makes footprints by itself draws a place for each, or for each point that it follows: otherwise noise that is
+/// locked to the screen, or that reads a level or a layer, would be looked at in one pixel only.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Start {
     object: DVec3,
@@ -108,6 +117,8 @@ pub struct Start {
     eye: DVec3,
     pixel: DVec2,
     texcoord: DVec2,
+    lod: f64,
+    layer: u32,
 }
 
 impl Start {
@@ -116,7 +127,27 @@ impl Start {
         let [object, world, eye] = [(); 3].map(|()| placement(rng) * WIDE);
         let mut pixel = || (uniform01(rng) * SCREEN).floor() + 0.5;
         let pixel = dvec2(pixel(), pixel());
-        Self { object, world, eye, pixel, texcoord: dvec2(uniform01(rng), uniform01(rng)) }
+        let texcoord = dvec2(uniform01(rng), uniform01(rng));
+        let [finest, coarsest] = LEVELS;
+        let lod = finest + (coarsest - finest) * uniform01(rng);
+        let layer = (uniform01(rng) * LAYERS) as u32;
+        Self { object, world, eye, pixel, texcoord, lod, layer }
+    }
+
+    /// Returns the fragment of a footprint that is seen here: world and eye are as far from where they are at the object's
+    /// origin as the position is from it.
+    #[must_use]
+    pub fn seeing(&self, footprint: Footprint<f64>) -> Fragment {
+        Fragment {
+            footprint,
+            world: self.world + footprint.position,
+            eye: self.eye + footprint.position,
+            pixel: self.pixel,
+            texcoord: self.texcoord,
+            lod: self.lod,
+            frame: 0,
+            layer: self.layer,
+        }
     }
 }
 

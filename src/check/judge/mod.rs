@@ -5,6 +5,7 @@ pub mod counts;
 pub mod equality;
 pub mod powers;
 pub mod replicate_means;
+pub mod resolution;
 pub mod shares;
 pub mod uniformity;
 
@@ -12,5 +13,6 @@ pub(crate) use correlations::uncorrelated;
 pub(crate) use counts::detectable_factor;
 pub(crate) use equality::equality;
 pub(crate) use powers::detectable_change;
+pub(crate) use resolution::Resolution;
 pub(crate) use shares::detectable_error;
 pub(crate) use uniformity::{histogram, uniformity};

@@ -53,6 +53,9 @@ fn rounding(precision: Precision) -> f64 {
 mod tests {
     use super::*;
     use crate::check::specimen::ideal;
+    use crate::stats::normal;
+    use crate::threshold::cdf::cdf;
+    use crate::threshold::normal::normal_quantile;
     use glam::DVec3;
 
     /// The axes of the copula add up, those of an interpolation do not, and one scale has one distance.
@@ -79,5 +82,34 @@ mod tests {
         ] {
             assert!((moved(join, variant) - slope).abs() < 1.0e-12, "{join} {variant}");
         }
+    }
+
+    /// The slopes are reached: of the steepest thresholds, nine tenths.
+    #[test]
+    fn slopes_are_not_larger_than_thresholds_are_steep() {
+        let steepest = |at: &dyn Fn(f64, f64, f64) -> f64, hashes: &[f64]| {
+            let mut most = 0.0_f64;
+            for step in 1..400 {
+                let l = f64::from(step) / 400.0;
+                for &coarse in hashes {
+                    for &fine in hashes {
+                        let change = at(coarse, fine, l + 1.0e-6) - at(coarse, fine, l - 1.0e-6);
+                        most = most.max(change.abs() / 2.0e-6);
+                    }
+                }
+            }
+            most
+        };
+        let even: Vec<f64> = (0..=64).map(|i| f64::from(i) / 64.0).collect();
+        let interpolated = |coarse: f64, fine: f64, l: f64| cdf(coarse + (fine - coarse) * l, l);
+        let found = steepest(&interpolated, &even);
+        assert!((0.9..=1.0).contains(&(found / INTERPOLATION_SLOPE)), "{found}");
+        let ends = [libm::exp2(-25.0), 1.0e-3, 0.5, 1.0 - 1.0e-3, 1.0 - libm::exp2(-25.0)];
+        let copula = |coarse: f64, fine: f64, l: f64| {
+            let sum = (1.0 - l) * normal_quantile(coarse) + l * normal_quantile(fine);
+            normal::upper_p(-sum / (l * l + (1.0 - l) * (1.0 - l)).sqrt())
+        };
+        let found = steepest(&copula, &ends);
+        assert!((0.9..=1.0).contains(&(found / COPULA_SLOPE)), "{found}");
     }
 }
