@@ -2,6 +2,7 @@
 
 use crate::check::evidence::ComparedShare;
 use crate::check::input::{fragments_everywhere, general_scenes, placement, sighting};
+use crate::check::input::everywhere::any_frame;
 use crate::check::judge::{detectable_error, equality};
 use crate::check::predict::PairLaw;
 use crate::check::tolerance::{ALPHAS, WIDE};
@@ -11,8 +12,14 @@ use crate::scene::Fragment;
 use crate::stats::normal;
 use std::collections::HashMap;
 
-/// Frames at which a static threshold is asked: neighbours, powers of two, the last one; or as many periods.
+/// Frames at which all points of a static threshold are asked: neighbours, powers of two, the last one; or as many periods.
 const FRAMES: [u32; 6] = [0, 1, 2, 7, 1024, u32::MAX];
+
+/// Frames that follow each other from the first one, and as many at random, at which some of the points are asked.
+const MORE_FRAMES: u32 = 64;
+
+/// One point in so many of those.
+const FEWER_POINTS: usize = 16;
 
 /// What roundings of `f32` leave between two thresholds of one point in different strata: the sum, the part after the
 /// point and the clamp at 2^-24.
@@ -88,9 +95,17 @@ fn in_frame(subject: &Subject<'_>, points: &[Fragment], frame: u32) -> Vec<f64> 
 fn unchanging(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     let points = fragments_everywhere(subject, draw, STATIC.id);
     // Whole periods from the first frame, as far as frames can be counted.
-    let periods = FRAMES.map(|frame| frame.min(u32::MAX / subject.frames) * subject.frames);
-    let [first, others @ ..] = periods.map(|frame| in_frame(subject, &points, frame));
-    Ok(equality(&points, &first, &others, "in another frame"))
+    let whole = |frame: u32| frame.min(u32::MAX / subject.frames) * subject.frames;
+    let [first, others @ ..] = FRAMES.map(|frame| in_frame(subject, &points, whole(frame)));
+    let mut rng = draw.rng("frames.static, more frames");
+    let more = (0..MORE_FRAMES).map(whole).chain((0..MORE_FRAMES).map(|_| whole(any_frame(&mut rng) / subject.frames)));
+    let some: Vec<Fragment> = points.iter().copied().step_by(FEWER_POINTS).collect();
+    let more: Vec<Vec<f64>> = more.map(|frame| in_frame(subject, &some, frame)).collect();
+    let their_first: Vec<f64> = first.iter().copied().step_by(FEWER_POINTS).collect();
+    let of_some = equality(&some, &their_first, &more, "in another frame");
+    let of_all = equality(&points, &first, &others, "in another frame");
+    let holds = |trial: &Trial| trial.conclusion == Conclusion::Exact { holds: true };
+    Ok(if holds(&of_all) && !holds(&of_some) { of_some } else { of_all })
 }
 
 /// Thresholds of points in general position over one period from a frame on: frame by frame.

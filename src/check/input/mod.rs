@@ -1,6 +1,7 @@
 //! Inputs of the claims, drawn by rule: fragments of surfaces, of cells, of patches, of motions.
 
 pub mod cell;
+pub(crate) mod everywhere;
 pub mod motion;
 pub mod patch;
 pub mod sample;

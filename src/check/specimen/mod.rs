@@ -11,6 +11,7 @@ mod clamp;
 pub mod computed;
 mod defect;
 mod derivative;
+mod domain;
 mod frame;
 mod hash;
 mod ideal;
@@ -26,7 +27,7 @@ pub use defect::Specimen;
 pub use ideal::{Ideal, ideal};
 
 /// The specimens, family by family.
-const FAMILIES: [&[Specimen]; 12] = [
+const FAMILIES: [&[Specimen]; 13] = [
     input::FAMILY,
     derivative::FAMILY,
     octave::FAMILY,
@@ -39,6 +40,7 @@ const FAMILIES: [&[Specimen]; 12] = [
     bias::FAMILY,
     repair::FAMILY,
     frame::FAMILY,
+    domain::FAMILY,
 ];
 
 /// Every specimen, in the order of the kill matrix.
