@@ -402,9 +402,10 @@ fn changes(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
         });
     };
     for (name, moved) in pools.levels() {
-        if std::env::var("DBG").is_ok() { eprintln!("{name}: n {} {:.4} {:.4}", moved.n, moved.changed as f64/moved.n as f64, moved.expected.mean/moved.n as f64); }
         judge(name, moved);
-        sigma = sigma.max(moved.expected.variance().sqrt() / moved.n as f64);
+        if moved.n >= LEAST_GROUP as u64 {
+            sigma = sigma.max(moved.expected.variance().sqrt() / moved.n as f64);
+        }
     }
     pools.settings().for_each(|(name, moved)| judge(name, moved));
     Ok(Trial {
@@ -414,7 +415,8 @@ fn changes(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
         n: pools.levels().next().map_or(0, |(_, moved)| moved.n),
         effect: Some(worst.effect),
         effect_name: "error in the share that changes in a part of the domain",
-        detectable: Some(power::detectable_shift_z(sigma, SINGLE_LEVEL / worst.tests as f64, POWER)),
+        detectable: (sigma > 0.0)
+            .then(|| power::detectable_shift_z(sigma, SINGLE_LEVEL / worst.tests as f64, POWER)),
         seen: worst.seen,
         evidence: Evidence::None,
     })
@@ -433,6 +435,8 @@ fn continuity(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
             let octave = f64::from(setting.level(Dimension::Octave)) + uniform01(&mut rng);
             let [dpdx, dpdy] = sampler.derivatives(octave, &mut rng);
             let first = sampler.at(position, dpdx, dpdy, &mut rng);
+            // A threshold that is spread over frames goes around the unit interval; in its first stratum it does not.
+            let first = Fragment { frame: first.frame / subject.frames * subject.frames, ..first };
             views.extend((0..VIEWS).map(|view| {
                 let closer = libm::exp2(-(view as f64) / (VIEWS - 1) as f64);
                 let [dpdx, dpdy] = [dpdx * closer, dpdy * closer];

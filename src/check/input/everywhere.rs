@@ -209,7 +209,8 @@ impl Settings {
         if subject.at_hash_scale(subject.hash_scale).is_some() {
             scales.extend(HASH_SCALES.into_iter().filter(|scale| *scale != subject.hash_scale));
         }
-        let n = draw.samples(SETTINGS);
+        // Of the whole domain the listings claim a fifth.
+        let n = draw.samples(SETTINGS * if draw.reach == Reach::Listings { 4 } else { 1 });
         let mut columns = Dimension::ALL.map(|dimension| levels(dimension, n, scales.len(), rng));
         corners(&mut columns);
         let first = rng.next_u32() % HOUR;
