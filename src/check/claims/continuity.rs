@@ -146,7 +146,7 @@ fn sweep(subject: &Subject<'_>, draw: &Draw, claim: &str, motion: &Sweep) -> Att
             })
             .collect();
         let thresholds = subject.thresholds(&views);
-        reject_outsiders(&views, &thresholds)?;
+        reject_outsiders(subject, &views, &thresholds)?;
         pops.add_path(subject, &views, &thresholds);
     }
     let motions = points as f64 * motion.length;
@@ -165,7 +165,7 @@ fn octave_boundary(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
                 continue;
             }
             let thresholds = subject.thresholds(&views);
-            reject_outsiders(&views, &thresholds)?;
+            reject_outsiders(subject, &views, &thresholds)?;
             pops.add_jumps(subject, &views, &thresholds);
             changes += thresholds.windows(2).filter(|pair| pair[0] != pair[1]).count() as u64;
             let nominal: Vec<Nominal> = views.iter().map(|view| subject.nominal(view)).collect();

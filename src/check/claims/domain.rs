@@ -139,7 +139,7 @@ fn uniform(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
             .collect();
         let samples: Vec<Fragment> = groups.iter().flatten().flatten().copied().collect();
         let values = subject.thresholds(&samples);
-        reject_outsiders(&samples, &values)?;
+        reject_outsiders(subject, &samples, &values)?;
         let mut values = values.into_iter();
         for (setting, group) in some.iter().zip(&groups) {
             let mut histogram = Histogram::new(BINS);
@@ -293,7 +293,7 @@ fn pairs(claim: &Claim, subject: &Subject<'_>, draw: &Draw, partner: Partner) ->
             .collect();
         let samples: Vec<Fragment> = groups.iter().flatten().flatten().copied().collect();
         let values = subject.thresholds(&samples);
-        reject_outsiders(&samples, &values)?;
+        reject_outsiders(subject, &samples, &values)?;
         let mut values = values.chunks_exact(2);
         for (setting, group) in some.iter().zip(&groups) {
             let mut table = Table::new();
@@ -382,7 +382,7 @@ fn changes(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
             expected.push(changes);
         }
         let values = subject.thresholds(&samples);
-        reject_outsiders(&samples, &values)?;
+        reject_outsiders(subject, &samples, &values)?;
         let groups = values.chunks_exact(2 * MOVED).zip(slopes.chunks_exact(MOVED));
         for ((&setting, expected), (values, slopes)) in some.iter().zip(expected).zip(groups) {
             // Where the distance from the origin bounds the size of a cell, moving changes the scale a little, too.
@@ -445,10 +445,9 @@ fn continuity(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
             }));
         }
         let values = subject.thresholds(&views);
-        reject_outsiders(&views, &values)?;
+        reject_outsiders(subject, &views, &values)?;
         for (views, values) in views.chunks_exact(VIEWS).zip(values.chunks_exact(VIEWS)) {
-            let footprints: Vec<Footprint<f64>> = views.iter().map(|view| view.footprint).collect();
-            pops.add_path(subject, &footprints, values);
+            pops.add_path(subject, views, values);
             points += 1;
         }
         Ok(())

@@ -5,6 +5,7 @@ use crate::check::input::{fragments_everywhere, general_scenes, placement, sight
 use crate::check::input::everywhere::any_frame;
 use crate::check::judge::{detectable_error, equality};
 use crate::check::predict::PairLaw;
+use crate::check::shrink::{at, shrunk};
 use crate::check::tolerance::{ALPHAS, WIDE};
 use crate::check::trial::reject_outsiders;
 use crate::check::{Attempt, Claim, Conclusion, Draw, Evidence, Promise, Subject, Trial, Verdict};
@@ -96,14 +97,17 @@ fn unchanging(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     let points = fragments_everywhere(subject, draw, STATIC.id);
     // Whole periods from the first frame, as far as frames can be counted.
     let whole = |frame: u32| frame.min(u32::MAX / subject.frames) * subject.frames;
-    let [first, others @ ..] = FRAMES.map(|frame| in_frame(subject, &points, whole(frame)));
+    let in_frames = |points: &[Fragment], frames: &[u32]| {
+        frames.iter().map(|&frame| in_frame(subject, points, frame)).collect::<Vec<_>>()
+    };
+    let tried = |points: &[Fragment], frames: &[u32]| {
+        equality(subject, points, &in_frames(points, frames), |_, points| in_frames(points, frames), "in another frame")
+    };
     let mut rng = draw.rng("frames.static, more frames");
-    let more = (0..MORE_FRAMES).map(whole).chain((0..MORE_FRAMES).map(|_| whole(any_frame(&mut rng) / subject.frames)));
+    let any = (0..MORE_FRAMES).map(|_| any_frame(&mut rng) / subject.frames);
+    let more: Vec<u32> = (0..MORE_FRAMES).chain(any).map(whole).collect();
     let some: Vec<Fragment> = points.iter().copied().step_by(FEWER_POINTS).collect();
-    let more: Vec<Vec<f64>> = more.map(|frame| in_frame(subject, &some, frame)).collect();
-    let their_first: Vec<f64> = first.iter().copied().step_by(FEWER_POINTS).collect();
-    let of_some = equality(&some, &their_first, &more, "in another frame");
-    let of_all = equality(&points, &first, &others, "in another frame");
+    let (of_all, of_some) = (tried(&points, &FRAMES.map(whole)), tried(&some, &more));
     let holds = |trial: &Trial| trial.conclusion == Conclusion::Exact { holds: true };
     Ok(if holds(&of_all) && !holds(&of_some) { of_some } else { of_all })
 }
@@ -112,7 +116,7 @@ fn unchanging(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
 fn period(subject: &Subject<'_>, points: &[Fragment], from: u32) -> Attempt<Vec<Vec<f64>>> {
     let frames = (from..from + subject.frames).map(|frame| {
         let values = in_frame(subject, points, frame);
-        reject_outsiders(points, &values).map(|()| values)
+        reject_outsiders(subject, points, &values).map(|()| values)
     });
     frames.collect()
 }
@@ -136,26 +140,39 @@ fn stratified(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     let (mut bad, mut largest, mut first) = (0_u64, 0.0_f64, None);
     // From the first frame on, and from one in the middle of a period.
     let halves = points.split_at(points.len() / 2);
-    for (points, from) in [(halves.0, 0), (halves.1, 4 * subject.frames + subject.frames / 2)] {
+    let errors = |points: &[Fragment], from: u32| -> Attempt<Vec<f64>> {
         let frames = period(subject, points, from)?;
-        for (at, point) in points.iter().enumerate() {
+        let error = |at: usize| {
             let mut values: Vec<f64> = frames.iter().map(|frame| frame[at]).collect();
             values.sort_unstable_by(f64::total_cmp);
             // Around the circle, the last next to the first.
             let around = values[0] + 1.0 - values[values.len() - 1];
             let gaps = values.windows(2).map(|pair| pair[1] - pair[0]).chain([around]);
-            let error = gaps.map(|gap| (gap - stratum).abs()).fold(0.0, f64::max);
+            gaps.map(|gap| (gap - stratum).abs()).fold(0.0, f64::max)
+        };
+        Ok((0..points.len()).map(error).collect())
+    };
+    for (points, from) in [(halves.0, 0), (halves.1, 4 * subject.frames + subject.frames / 2)] {
+        for (point, error) in points.iter().zip(errors(points, from)?) {
             largest = largest.max(error);
             if error > STRATUM_ROUNDING {
                 bad += 1;
-                first.get_or_insert_with(|| format!("{values:?} at {}", point.footprint.position));
+                first.get_or_insert((*point, from));
             }
         }
     }
+    let first = first.map_or(String::new(), |(point, from)| {
+        let [shown] = shrunk(&[point], subject.precision, |candidates| {
+            let candidates = candidates.as_flattened();
+            let found = errors(candidates, from).unwrap_or_else(|_| vec![0.0; candidates.len()]);
+            found.into_iter().map(|error| error > STRATUM_ROUNDING).collect()
+        });
+        let shown = Fragment { frame: from, ..shown };
+        format!("; as in {}, in the {} frames from there on", at(subject, &shown), subject.frames)
+    });
     let seen = format!(
-        "{:.2} % of points do not take each stratum once; first {}",
-        100.0 * bad as f64 / points.len() as f64,
-        first.unwrap_or_default()
+        "{:.2} % of points do not take each stratum once{first}",
+        100.0 * bad as f64 / points.len() as f64
     );
     let name = "largest error of a distance between neighbouring strata";
     let counted =
@@ -242,8 +259,8 @@ fn serial(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
                 after.push(Fragment { pixel: here.fragment.pixel, frame: lag * subject.frames, ..there });
             }
             let (old, new) = (subject.thresholds(&before), subject.thresholds(&after));
-            reject_outsiders(&before, &old)?;
-            reject_outsiders(&after, &new)?;
+            reject_outsiders(subject, &before, &old)?;
+            reject_outsiders(subject, &after, &new)?;
             // A uniform value has a variance of 1/12.
             let products = old.iter().zip(&new).map(|(a, b)| 12.0 * (a - 0.5) * (b - 0.5));
             let name = scene.name.to_owned();

@@ -1,9 +1,10 @@
 //! Thresholds of a fixed point from view to view: how often they jump.
 
 use crate::check::predict::{largest_change, log_scale};
-use crate::check::trial::{describe, detectable_share};
+use crate::check::shrink::describe_pair;
+use crate::check::trial::detectable_share;
 use crate::check::{Conclusion, Evidence, Subject, Trial};
-use crate::threshold::footprint::Footprint;
+use crate::scene::Fragment;
 use crate::threshold::robust::Join;
 use crate::threshold::two_scale::Variant;
 
@@ -21,7 +22,7 @@ pub(crate) struct Pops {
 impl Pops {
     /// Follows a point along views between which every scale only grows or only shrinks: a continuous join does not jump, the dithered
     /// one switches once an octave and axis.
-    pub fn add_path(&mut self, subject: &Subject<'_>, views: &[Footprint<f64>], thresholds: &[f64]) {
+    pub fn add_path<F: Copy + Into<Fragment>>(&mut self, subject: &Subject<'_>, views: &[F], thresholds: &[f64]) {
         match subject.join {
             Join::Dithered => self.add_switches(subject, views, thresholds),
             Join::Interpolate | Join::Copula => self.add_jumps(subject, views, thresholds),
@@ -29,24 +30,31 @@ impl Pops {
     }
 
     /// Counts the steps between views that change the threshold by more than the join allows.
-    pub fn add_jumps(&mut self, subject: &Subject<'_>, views: &[Footprint<f64>], thresholds: &[f64]) {
+    pub fn add_jumps<F: Copy + Into<Fragment>>(&mut self, subject: &Subject<'_>, views: &[F], thresholds: &[f64]) {
         self.steps += views.len() as u64 - 1;
-        let mut before = subject.nominal(&views[0]);
+        let nominal = |view: F| subject.nominal(&view.into().footprint);
+        let mut before = nominal(views[0]);
         for step in 1..views.len() {
-            let after = subject.nominal(&views[step]);
+            let after = nominal(views[step]);
             let jump = (thresholds[step] - thresholds[step - 1]).abs();
             if jump > largest_change(subject, &before, &after) {
-                self.add(jump, || describe(&views[step], thresholds[step]));
+                let pair = [views[step - 1], views[step]].map(Into::into);
+                self.add(jump, || {
+                    describe_pair(subject, &pair, |pair, [old, new]| {
+                        let [before, after] = pair.map(|view| subject.nominal(&view.footprint));
+                        (new - old).abs() > largest_change(subject, &before, &after)
+                    })
+                });
             }
             before = after;
         }
     }
 
     /// Counts the switches beyond one an octave and axis.
-    fn add_switches(&mut self, subject: &Subject<'_>, views: &[Footprint<f64>], thresholds: &[f64]) {
+    fn add_switches<F: Copy + Into<Fragment>>(&mut self, subject: &Subject<'_>, views: &[F], thresholds: &[f64]) {
         self.steps += views.len() as u64 - 1;
-        let (Some(first), Some(last)) = (views.first(), views.last()) else { return };
-        let ends = [first, last].map(|view| log_scale(&subject.nominal(view)));
+        let (Some(&first), Some(&last)) = (views.first(), views.last()) else { return };
+        let ends = [first, last].map(|view| log_scale(&subject.nominal(&view.into().footprint)));
         let axes = if subject.variant == Variant::Anisotropic { 3 } else { 1 };
         let mut octaves: f64 =
             (0..axes).map(|axis| (ends[1][axis].floor() - ends[0][axis].floor()).abs() + 1.0).sum();
@@ -55,7 +63,8 @@ impl Pops {
             if jump > 0.0 {
                 octaves -= 1.0;
                 if octaves < 0.0 {
-                    self.add(jump, || describe(&views[step], thresholds[step]));
+                    let pair = [views[step - 1], views[step]].map(Into::into);
+                    self.add(jump, || describe_pair(subject, &pair, |_, [old, new]| old != new));
                 }
             }
         }
@@ -82,7 +91,7 @@ impl Pops {
             effect_name,
             detectable: Some(detectable_share(motions)),
             seen: format!(
-                "{rate:.3} {effect_name}, by {:.3} in the mean and {:.3} at most; first to {}",
+                "{rate:.3} {effect_name}, by {:.3} in the mean and {:.3} at most; as in {}",
                 self.sum / self.count as f64,
                 self.largest,
                 self.first
