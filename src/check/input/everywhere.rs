@@ -12,7 +12,7 @@ use crate::check::Subject;
 use crate::scene::Fragment;
 use crate::stats::seed::uniform01;
 use crate::threshold::footprint::Footprint;
-use glam::{DVec3, dvec2};
+use glam::{DVec2, DVec3, dvec2};
 use rand::Rng;
 use rand::rngs::Xoshiro256PlusPlus;
 use rustc_hash::{FxHashSet, FxHasher};
@@ -43,6 +43,9 @@ const HOUR: u32 = 60 * 3600;
 /// Noise sizes in pixels beside the claimed one, where the subject has that parameter: half and twice a pixel, and one that is no
 /// power of two.
 const HASH_SCALES: [f64; 4] = [0.5, 1.0, 2.0, 3.7];
+
+/// Repetitions of the texture to both sides of its origin: a wall of bricks.
+const TILES: f64 = 8.0;
 
 /// Octants and half axes from which positions come.
 const DIRECTIONS: i32 = 14;
@@ -125,6 +128,8 @@ pub(crate) struct Setting {
     pub frame: u32,
     /// Where the surface begins on the screen, in pixels.
     pixel: [f64; 2],
+    /// The repetition of the texture, along both axes.
+    tile: [f64; 2],
     /// World coordinates of the object's origin.
     world: DVec3,
 }
@@ -223,6 +228,7 @@ impl Settings {
             Setting {
                 levels,
                 frame: frames[levels[Dimension::Frame as usize] as usize],
+                tile: [between(-TILES, TILES).floor(), between(-TILES, TILES).floor()],
                 pixel: [between(0.0, 3840.0).floor() + 0.5, between(0.0, 2160.0).floor() + 0.5],
                 world: DVec3::from_array([(); 3].map(|()| between(-64.0, 64.0))),
             }
@@ -323,7 +329,8 @@ impl<'a> Sampler<'a> {
             world: footprint.position + self.setting.world,
             eye: ((pixel - dvec2(1920.0, 1080.0)) / 1024.0 * depth).extend(depth),
             pixel,
-            texcoord: dvec2((step >> 12 & 0xffff) as f64, (step >> 28 & 0xffff) as f64) / 65536.0,
+            texcoord: dvec2((step >> 12 & 0xffff) as f64, (step >> 28 & 0xffff) as f64) / 65536.0
+                + DVec2::from_array(self.setting.tile),
             lod: f64::from(self.setting.level(Dimension::Lod)) + (step >> 44 & 0xff) as f64 / 256.0,
             frame: self.setting.frame,
             layer: self.setting.level(Dimension::Layer) as u32,
