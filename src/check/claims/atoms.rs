@@ -61,7 +61,7 @@ fn block_of_cells(
             .map(|footprint| subject.precision.round(&footprint))
             .collect();
         let values = subject.thresholds(&layer);
-        reject_outsiders(&layer, &values)?;
+        reject_outsiders(subject, &layer, &values)?;
         use_layer(&values);
     }
     Ok(u64::from(nx) * u64::from(ny) * u64::from(layers))

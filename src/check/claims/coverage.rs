@@ -80,7 +80,7 @@ fn mean(claim: &Claim, scenes: Vec<Scene>, subject: &Subject<'_>, draw: &Draw) -
         let name = scene.name;
         let samples = independent(subject, &[scene], draw.samples(COVERAGE_SAMPLES), 1, &mut rng);
         let values = subject.thresholds(&samples);
-        reject_outsiders(&samples, &values)?;
+        reject_outsiders(subject, &samples, &values)?;
         let count = values.len() as u64;
         if count == 0 {
             continue;
@@ -135,7 +135,7 @@ fn variance(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
             .flat_map(|_| patch.image(subject, [BLOCK_SIDE; 2], spacing, &mut rng))
             .collect();
         let values = subject.thresholds(&blocks);
-        reject_outsiders(&blocks, &values)?;
+        reject_outsiders(subject, &blocks, &values)?;
         let nominal = subject.nominal(&blocks[0].footprint);
         let above = nominal.lerp_factor >= 0.5;
         let predicted = predicted_variances(subject, &patch, &nominal, spacing);

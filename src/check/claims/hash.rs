@@ -86,7 +86,7 @@ fn groups<const N: usize>(
         }
     }
     let values = subject.thresholds(&samples);
-    reject_outsiders(&samples, &values)?;
+    reject_outsiders(subject, &samples, &values)?;
     Ok(values)
 }
 

@@ -166,7 +166,7 @@ fn independent_pairs(
             }
         }
         let values = subject.thresholds(&pairs);
-        reject_outsiders(&pairs, &values)?;
+        reject_outsiders(subject, &pairs, &values)?;
         let table = correlation::pair_table(values.chunks_exact(2).map(|pair| (pair[0], pair[1])), PAIR_BINS);
         pooled.iter_mut().zip(&table).for_each(|(sum, count)| *sum += count);
         tests.extend(chi_square::independence(&table, PAIR_BINS));

@@ -76,7 +76,7 @@ fn planes(
         let scene = [turned(&wall, turn)];
         let samples = independent(subject, &scene, draw.samples(PLANE_SAMPLES), usize::MAX, &mut rng);
         let values = subject.thresholds(&samples);
-        reject_outsiders(&samples, &values)?;
+        reject_outsiders(subject, &samples, &values)?;
         let counts = histogram(values);
         tests.extend(uniformity(&counts));
         let below_half: u64 = counts.counts()[..BINS / 2].iter().sum();

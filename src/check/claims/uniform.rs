@@ -65,7 +65,7 @@ fn marginal_samples(subject: &Subject<'_>, claim: &Claim, draw: &Draw) -> Attemp
     let mut rng = draw.rng(claim.id);
     let samples = independent(subject, &general_scenes(), marginal_size(draw), DRAWS_A_PLACE, &mut rng);
     let values = subject.thresholds(&samples);
-    reject_outsiders(&samples, &values)?;
+    reject_outsiders(subject, &samples, &values)?;
     Ok((samples, values))
 }
 

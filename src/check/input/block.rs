@@ -50,7 +50,7 @@ impl Block {
                 .map(|index| in_cell(subject, self.corner + DVec3::from_array(index), self.octave))
                 .collect();
             let found = subject.thresholds(&cells);
-            reject_outsiders(&cells, &found)?;
+            reject_outsiders(subject, &cells, &found)?;
             values.extend(found);
         }
         Ok(values)
