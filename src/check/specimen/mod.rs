@@ -21,6 +21,7 @@ pub mod matrix;
 mod octave;
 mod pattern;
 mod port;
+mod relation;
 mod repair;
 
 pub use defect::Specimen;
@@ -33,6 +34,7 @@ const FAMILIES: [&[Specimen]; 13] = [
     octave::FAMILY,
     cells::FAMILY,
     hash::FAMILY,
+    relation::FAMILY,
     pattern::FAMILY,
     join::FAMILY,
     cdf::FAMILY,
