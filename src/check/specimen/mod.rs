@@ -28,7 +28,7 @@ pub use defect::Specimen;
 pub use ideal::{Ideal, ideal};
 
 /// The specimens, family by family.
-const FAMILIES: [&[Specimen]; 13] = [
+const FAMILIES: [&[Specimen]; 14] = [
     input::FAMILY,
     derivative::FAMILY,
     octave::FAMILY,
