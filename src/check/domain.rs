@@ -197,20 +197,19 @@ impl Domain {
         (0..NAMES.len()).filter(named).map(|name| NAMES[name]).collect()
     }
 
-    /// The frames in words, as in "0..63 and 64 up to 4294967295".
+    /// The frames in words: those that follow each other from the first one, and how many others, as in "0..63 +64".
     #[must_use]
     pub fn frames_in_words(&self) -> String {
-        let first = (0..).take_while(|frame| self.frames.contains(frame)).count() as u32;
-        let beyond = self.frames.len() as u32 - first;
+        let first = (0..).take_while(|frame| self.frames.contains(frame)).count();
         let consecutive = match first {
             0 => String::new(),
             1 => "0".to_owned(),
             _ => format!("0..{}", first - 1),
         };
-        match (beyond, self.frames.last()) {
-            (0, _) | (_, None) => consecutive,
-            (_, Some(last)) if first == 0 => format!("{beyond} up to {last}"),
-            (_, Some(last)) => format!("{consecutive} and {beyond} up to {last}"),
+        match self.frames.len() - first {
+            0 => consecutive,
+            others if first == 0 => format!("{others} of any size"),
+            others => format!("{consecutive} +{others}"),
         }
     }
 }
@@ -269,7 +268,7 @@ mod tests {
         assert_eq!(
             domain.to_string(),
             "octaves 3..4; |p| 2^(8), 1 octants and 1 half axes; ratios 2^(2), zero dpdx, along y; lod -1..0; layers 0, 2; \
-             frames 0 and 1 up to 9; hash scale 1, 2"
+             frames 0 +1; hash scale 1, 2"
         );
     }
 }

@@ -12,7 +12,7 @@ use crate::check::Subject;
 use crate::scene::Fragment;
 use crate::stats::seed::uniform01;
 use crate::threshold::footprint::Footprint;
-use glam::{DVec2, DVec3, dvec2};
+use glam::{DMat3, DVec2, DVec3, dvec2};
 use rand::Rng;
 use rand::rngs::Xoshiro256PlusPlus;
 use rustc_hash::{FxHashSet, FxHasher};
@@ -55,6 +55,10 @@ const ZEROS: i32 = 13;
 
 /// Settings at [`Budget::Ci`]: a hundred of each octave.
 const SETTINGS: usize = 4096;
+
+/// No object axis has less than this share of the longer derivative where the listings are asked: twice the share to which the robust
+/// threshold raises it.
+const LEAST_AXIS_SHARE: f64 = 1.0 / 16.0;
 
 /// Tries in a row that find no cell of their own, after which a setting has no more.
 const TRIES: usize = 24;
@@ -128,6 +132,8 @@ pub(crate) struct Setting {
     pub frame: u32,
     /// Where the surface begins on the screen, in pixels.
     pixel: [f64; 2],
+    /// Whether no axis is nearly without derivative, where a listing has cells of its own.
+    general: bool,
     /// The repetition of the texture, along both axes.
     tile: [f64; 2],
     /// World coordinates of the object's origin.
@@ -228,6 +234,7 @@ impl Settings {
             Setting {
                 levels,
                 frame: frames[levels[Dimension::Frame as usize] as usize],
+                general: draw.reach == Reach::Listings,
                 tile: [between(-TILES, TILES).floor(), between(-TILES, TILES).floor()],
                 pixel: [between(0.0, 3840.0).floor() + 0.5, between(0.0, 2160.0).floor() + 0.5],
                 world: DVec3::from_array([(); 3].map(|()| between(-64.0, 64.0))),
@@ -359,7 +366,14 @@ impl<'a> Sampler<'a> {
 
     /// Draws the derivatives of a surface whose cells lie so many octaves above one a unit.
     pub fn derivatives(&self, octave: f64, rng: &mut Xoshiro256PlusPlus) -> [DVec3; 2] {
-        let turn = rotation(rng);
+        let ratio = self.setting.level(Dimension::Ratio);
+        let longer_axis = |turn: &DMat3| if ratio >= 0 { turn.x_axis.abs() } else { turn.y_axis.abs() };
+        let mut turn = rotation(rng);
+        while self.setting.general
+            && longer_axis(&turn).min_element() < LEAST_AXIS_SHARE * longer_axis(&turn).max_element()
+        {
+            turn = rotation(rng);
+        }
         let mut axes = [turn.x_axis, turn.y_axis];
         let zero = self.setting.level(Dimension::Zero);
         let mut blank = |derivatives: &[usize], axis: i32| {
@@ -375,7 +389,6 @@ impl<'a> Sampler<'a> {
         }
         let [x, y] = axes.map(|axis| axis.try_normalize().unwrap_or(DVec3::ZERO));
         let longer = numerator(self.subject.variant) * libm::exp2(-octave) / self.subject.hash_scale;
-        let ratio = self.setting.level(Dimension::Ratio);
         // From half of the level's ratio up to it.
         let shorter = longer * libm::exp2(-(f64::from(ratio.abs()) - uniform01(rng)).max(0.0));
         let [x, y] = if ratio >= 0 {
