@@ -87,7 +87,7 @@ const SETTINGS: [Setting; 4] = [
 impl Setting {
     fn draw(self, seed: u64) -> Draw {
         let budget = Budget::ALL.into_iter().find(|known| known.name() == self.budget);
-        Draw { seed, budget: budget.expect("a budget of that name"), round: self.round }
+        Draw { seed, budget: budget.expect("a budget of that name"), round: self.round, ..Draw::default() }
     }
 }
 

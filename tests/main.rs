@@ -15,10 +15,11 @@ mod coordinates;
 mod domain;
 mod emulated;
 mod exhaustive;
-mod false_alarms;
 mod extension_claims;
 mod extension_hashes;
+mod false_alarms;
 mod golden;
+mod inputs;
 #[path = "sentences/mask.rs"]
 mod mask;
 mod masks;

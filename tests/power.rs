@@ -164,7 +164,7 @@ fn popping(share: f64, at_the_octave: bool) -> impl Fn(&Fragment, f64) -> f64 + 
     move |at, value| {
         let p = at.footprint.position;
         let scale = log_scale(at);
-        let passed = (-8..12).filter(|&octave| {
+        let passed = (-24..24).filter(|&octave| {
             let pops = coin(octave as u64, &[p.x, p.y, p.z]) < share;
             let place = if at_the_octave { 0.0 } else { coin(100 + octave as u64, &[p.x, p.y, p.z]) };
             pops && scale >= f64::from(octave) + place
@@ -228,7 +228,9 @@ fn plant(claim: &str) -> Option<(Ground, Plant)> {
         | "uniform.constant_z"
         | "uniform.any_plane"
         | "cells.window" => (Continuous, of_chi_square),
-        "uniform.coverage" | "coverage.mean" | "coverage.mean_aligned" => (Continuous, of_shares),
+        "domain.uniform" | "uniform.coverage" | "coverage.mean" | "coverage.mean_aligned" => {
+            (Continuous, of_shares)
+        }
         "independence.neighbours"
         | "independence.diagonals"
         | "independence.across_zero"
@@ -236,6 +238,10 @@ fn plant(claim: &str) -> Option<(Ground, Plant)> {
         | "hash.children"
         | "layers.parallel"
         | "layers.quarter" => (Continuous, of_pairs),
+        // Tables of eight by eight.
+        "domain.neighbours" | "domain.layers" => {
+            (Continuous, Box::new(|_, base, size| copied(base, (size / 7.0).sqrt(), 2, 1)))
+        }
         "hash.differences" => (
             Continuous,
             Box::new(|_, base, size| {
@@ -243,6 +249,51 @@ fn plant(claim: &str) -> Option<(Ground, Plant)> {
                     for pair in values.chunks_exact_mut(2) {
                         let difference = (pair[1] - pair[0]).rem_euclid(1.0);
                         pair[1] = (pair[0] + tilted(size.sqrt(), difference)).rem_euclid(1.0);
+                    }
+                })
+            }),
+        ),
+        // A share of values is that of the cell before: of one that comes just before in a block, along its first axis.
+        "hash.lags" => (
+            Continuous,
+            Box::new(|_, base, size| {
+                in_rows(base, move |at, values| {
+                    let before = values.to_vec();
+                    for place in 1..values.len() {
+                        if coin_of(1, &at[place]) < size / (1.0 - size) {
+                            values[place] = before[place - 1];
+                        }
+                    }
+                })
+            }),
+        ),
+        // A share of values continues the line through the two before.
+        "hash.triples" => (
+            Continuous,
+            Box::new(|_, base, size| {
+                in_rows(base, move |at, values| {
+                    let before = values.to_vec();
+                    for place in 2..values.len() {
+                        if coin_of(1, &at[place]) < size / (1.0 - 2.0 * size) {
+                            values[place] = (2.0 * before[place - 1] - before[place - 2]).rem_euclid(1.0);
+                        }
+                    }
+                })
+            }),
+        ),
+        // The last corner of each square makes the sum of all uneven.
+        "hash.squares" => (
+            Continuous,
+            Box::new(|_, base, size| {
+                in_rows(base, move |at, values| {
+                    let position = |place: usize| at[place].footprint.position;
+                    let Some(row) = (1..at.len()).find(|&place| position(place).y != position(0).y) else {
+                        return;
+                    };
+                    for place in row + 1..values.len() {
+                        let others = values[place - row - 1] - values[place - row] - values[place - 1];
+                        let sum = (others + values[place]).rem_euclid(1.0);
+                        values[place] = (tilted(size.sqrt(), sum) - others).rem_euclid(1.0);
                     }
                 })
             }),
@@ -260,7 +311,9 @@ fn plant(claim: &str) -> Option<(Ground, Plant)> {
         "cells.mirror" => (Continuous, Box::new(|_, base, size| copied(base, size, 4, 1))),
         "cells.origin" => (Continuous, Box::new(|_, base, size| each(base, move |_, x| x * (1.0 - size)))),
         // Where half of the thresholds change, a change of either of two is a change more in half of the cases.
-        "stability.translate" | "stability.translate_aligned" => (Continuous, redrawn(1.0)),
+        "stability.translate" | "stability.translate_aligned" | "domain.changes" => {
+            (Continuous, redrawn(1.0))
+        }
         // Where hardly one changes, in both.
         "planes.axis_aligned" | "planes.dyadic" => (Continuous, redrawn(0.53)),
         "flips.translation" => (Continuous, redrawn(FLIPS_OF_A_SHIFT)),
@@ -354,7 +407,9 @@ fn plant(claim: &str) -> Option<(Ground, Plant)> {
                 })
             }),
         ),
-        "continuity.zoom" => (Continuous, Box::new(|_, base, size| each(base, popping(size, false)))),
+        "continuity.zoom" | "domain.continuity" => {
+            (Continuous, Box::new(|_, base, size| each(base, popping(size, false))))
+        }
         // The scale goes through a third of an octave, and back.
         "continuity.rotation" => {
             (Continuous, Box::new(|_, base, size| each(base, popping(size / 0.64, false))))
@@ -415,7 +470,7 @@ fn what_is_a_tenth_larger_than_the_stated_size_is_seen() {
         .into_par_iter()
         .flat_map_iter(|seed| {
             planted().into_iter().filter_map(move |(claim, ground, plant)| {
-                let draw = Draw { seed, budget: Budget::Quick, round: 0 };
+                let draw = Draw { budget: Budget::Quick, ..Draw::seeded(seed) };
                 let sound = tried(claim, &ground.subject(seed), &draw);
                 let size = LARGER * sound.detectable.expect("a claim that can be rejected says what it sees");
                 let found = tried(claim, &plant(seed, ground.subject(seed), size), &draw);
@@ -461,7 +516,8 @@ const SEEDS: u64 = 10;
 /// Whether a run of all claims, sound but for this one, would reject it in any of its rounds.
 fn is_found(claim: &Claim, subject: &Subject<'_>, seed: u64) -> bool {
     for round in 0..sequential::WEIGHTS.len() {
-        let trial = tried(claim, subject, &Draw { seed, budget: Budget::Quick, round: round as u32 });
+        let trial =
+            tried(claim, subject, &Draw { budget: Budget::Quick, round: round as u32, ..Draw::seeded(seed) });
         let Conclusion::Probability(p) = trial.conclusion else { return is_rejected(&trial, 0.0) };
         // All others are in the first round, and none of them in those that follow.
         let others = if round == 0 { claims::ALL.len() - 1 } else { 0 };
