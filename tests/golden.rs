@@ -17,7 +17,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 /// Not the draw of the kill matrix.
-const DRAW: Draw = Draw { seed: 7, budget: Budget::Quick, round: 0 };
+const DRAW: Draw = Draw { seed: 7, budget: Budget::Quick, round: 0, doublings: 0 };
 
 fn path() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden/battery.txt")

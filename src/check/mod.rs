@@ -29,6 +29,7 @@ pub mod diagnosis;
 #[doc(hidden)]
 pub mod draw;
 pub mod evidence;
+pub mod growth;
 #[doc(hidden)]
 pub mod input;
 #[doc(hidden)]

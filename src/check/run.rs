@@ -13,6 +13,10 @@ use rayon::prelude::*;
 /// for a second try.
 pub const SUSPICION: f64 = 1.0e-2;
 
+/// Why a claim says nothing about a bare hash.
+const BARE_HASH: &str = "a bare hash has one cell and no more: the claim is about what a threshold makes of two cells, or about what \
+                         changes while one looks";
+
 /// Tries every claim on one subject, with seed 0.
 ///
 /// ```
@@ -83,7 +87,10 @@ pub fn run_claims(
 }
 
 /// Holds one trial; a subject that could not be run is not asked again.
-fn tried(subject: &Subject<'_>, claim: &Claim, draw: &Draw) -> Trial {
+pub(super) fn tried(subject: &Subject<'_>, claim: &Claim, draw: &Draw) -> Trial {
+    if subject.bare_hash && claims::is_beyond_a_hash(claim.id) {
+        return Trial::without(Conclusion::NotApplicable, BARE_HASH);
+    }
     let unavailable = || subject.failure().map(|reason| Trial::without(Conclusion::Unavailable, reason));
     unavailable().unwrap_or_else(|| {
         let trial: Attempt<Trial> = (claim.run)(subject, draw);

@@ -93,6 +93,9 @@ pub struct Subject<'a> {
     /// Over how many frames it claims to spread its thresholds (Eq. 6), beginning with stratum 0 in frame 0; 1 where a
     /// threshold stays what it is.
     pub frames: u32,
+    /// Whether it is the hash of one cell and no more: no second octave, no join, no Eq. 2. Claims about those say nothing
+    /// about it.
+    pub bare_hash: bool,
     threshold: Evaluation<'a>,
     interpolated: Option<OneByOne<'a>>,
     failure: OnceLock<String>,
@@ -201,6 +204,7 @@ impl<'a> Subject<'a> {
             nested_phase: false,
             hash_scale: 1.0,
             frames: 1,
+            bare_hash: false,
             threshold,
             interpolated: None,
             failure: OnceLock::new(),
@@ -276,6 +280,27 @@ impl<'a> Subject<'a> {
             Model::Robust(robust) => Self::robust(name, precision, robust),
         };
         Self { threshold: Evaluation::Batch(model), ..described }
+    }
+
+    /// Puts a hash on trial alone: its threshold is the hash of [the coarse cell](scales::only_cell), wherever the footprint
+    /// lies between two octaves.
+    ///
+    /// ```
+    /// use hashed_alpha::check::{Subject, subject::Precision};
+    /// use hashed_alpha::threshold::hash::HashKind;
+    ///
+    /// assert!(Subject::of_hash("hash:mm4", Precision::F32, HashKind::Mm4).bare_hash);
+    /// ```
+    #[must_use]
+    pub fn of_hash<H>(name: impl Into<String>, precision: Precision, hash: H) -> Self
+    where
+        H: Hash<f32> + Hash<f64> + Copy + Send + 'a,
+    {
+        let value = move |footprint: &Footprint<f64>| match precision {
+            Precision::F32 => hash.hash(&scales::only_cell::<f32>(&footprint.cast())).to_f64(),
+            Precision::F64 => hash.hash(&scales::only_cell(footprint)),
+        };
+        Self { bare_hash: true, ..Self::new(name, precision, Variant::Isotropic, value) }
     }
 
     /// Spreads the thresholds over `n` frames: frame i has stratum i of the alternating order, each of width 1 / n. Eq. 6

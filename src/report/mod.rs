@@ -8,6 +8,7 @@
 //! | [`by_model`] | `cli` | which claims hold on which device models |
 //! | [`html`] | `cli` | one page that needs nothing but the pictures beside it |
 //! | [`study`] | `cli` | plans, counts and numbers of scenes as text, CSV and JSON |
+//! | [`growth`] | samples until failure: the table, one JSON object a claim, the state that a run continues from |
 //! | [`directory`] | `cli` | all of that as files |
 //! | [`cost`] | `cli` | what was measured of time: tables, JSON Lines, pictures |
 //!
@@ -22,6 +23,8 @@ pub mod cost;
 pub mod directory;
 #[cfg(feature = "plots")]
 pub mod figure;
+#[cfg(feature = "cli")]
+pub mod growth;
 #[cfg(feature = "cli")]
 pub mod html;
 #[cfg(feature = "cli")]
