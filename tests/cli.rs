@@ -446,6 +446,41 @@ fn a_finding_is_a_rejection_until_it_is_known() {
     assert!(lines.lines().all(|line| line.starts_with('{') && line.contains("\"seed\":7")), "{lines}");
 }
 
+/// The rows in a finding, each with the threshold in front of it: "0.25 at 1,0,0,0.01,0,0,0,0.01,0 and 0.5 at ...".
+fn rows_in(finding: &str) -> Vec<(String, String)> {
+    let words: Vec<&str> = finding.split([' ', ';']).collect();
+    let is_row = |word: &str| word.matches(',').count() == 8;
+    let rows = words.windows(3).filter(|words| words[1] == "at" && is_row(words[2]));
+    rows.map(|words| (words[0].to_owned(), words[2].to_owned())).collect()
+}
+
+#[test]
+fn a_row_of_a_finding_is_a_row_of_eval() {
+    let claims = ["range", "planes", "continuity", "coverage.mean_aligned", "layers.parallel"];
+    let only = claims.iter().flat_map(|claim| ["--only", claim]).collect::<Vec<_>>();
+    let options = ["check", "paper", "--budget", "quick", "--json", "--no-report"];
+    let output = run(&[&options[..], &only].concat(), "");
+    assert_eq!(output.status.code(), Some(1), "{output:?}");
+    let mut told = std::collections::BTreeSet::new();
+    for line in String::from_utf8(output.stdout).unwrap().lines() {
+        let line: serde_json::Value = serde_json::from_str(line).unwrap();
+        let text = |key: &str| line[key].as_str().unwrap_or_default().to_owned();
+        let (check, subject) = (text("check"), text("subject"));
+        let variant = subject.strip_prefix("paper:").unwrap();
+        for (threshold, row) in rows_in(&text("finding")) {
+            let options = ["eval", "--literal", "--variant", variant, "--precision", &text("precision")];
+            assert_eq!(
+                succeed(&options, &row),
+                format!("threshold\n{threshold}\n"),
+                "{check} {subject} {row}"
+            );
+            assert!(row.len() < 60, "{check}: {row}");
+            told.insert(check.clone());
+        }
+    }
+    assert!(told.len() >= 8, "{told:?}");
+}
+
 #[test]
 fn a_hash_grows_until_it_fails_and_a_run_goes_on_where_it_ended() {
     let folder = tempfile::tempdir().unwrap();

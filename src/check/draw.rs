@@ -99,10 +99,10 @@ impl Draw {
         self.doubled(self.of_budget(at_ci), STREAM_LIMIT)
     }
 
-    /// The same where fewer samples than at [`Budget::Ci`] would leave too few in a bin.
+    /// The same where fewer samples than `least` would leave too few in a bin.
     #[must_use]
-    pub fn stream_at_least(&self, at_ci: usize) -> usize {
-        self.doubled(self.of_budget(at_ci).max(at_ci), STREAM_LIMIT)
+    pub fn stream_at_least(&self, at_ci: usize, least: usize) -> usize {
+        self.doubled(self.of_budget(at_ci).max(least), STREAM_LIMIT)
     }
 
     /// Returns how many groups of equal size a claim tries, which grows by more groups: `at_first` of them before doubling.
@@ -175,7 +175,7 @@ mod tests {
         let nightly = Draw { budget: Budget::Nightly, ..draw(5) };
         assert_eq!(nightly.samples(1 << 18), 1 << 22);
         let quick = Draw { budget: Budget::Quick, ..draw(2) };
-        assert_eq!((quick.stream(1000), quick.stream_at_least(1000)), (1000, 4000));
+        assert_eq!((quick.stream(1000), quick.stream_at_least(1000, 500)), (1000, 2000));
     }
 
     #[test]

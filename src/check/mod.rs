@@ -47,6 +47,7 @@ pub mod results;
 pub mod run;
 #[cfg(feature = "shader")]
 pub mod shaders;
+mod shrink;
 pub mod specimen;
 pub mod subject;
 #[doc(hidden)]

@@ -1,11 +1,11 @@
 //! What is seen when a claim is tried on a subject.
 
-use crate::check::Evidence;
+use crate::check::shrink::describe;
 use crate::check::tolerance::{POWER, SINGLE_LEVEL};
+use crate::check::{Evidence, Subject};
 use crate::scene::Fragment;
 use crate::stats::chi_square::ChiSquare;
 use crate::stats::power;
-use crate::threshold::footprint::Footprint;
 
 /// What a trial reached, or the trial that ended it early.
 pub type Attempt<T> = Result<T, Box<Trial>>;
@@ -120,23 +120,17 @@ pub(crate) fn detectable_share(n: f64) -> f64 {
 }
 
 /// Ends a claim whose samples are not all thresholds.
-pub(crate) fn reject_outsiders<F: Copy + Into<Fragment>>(samples: &[F], values: &[f64]) -> Attempt<()> {
-    let is_outside = |value: &&f64| !(0.0..=1.0).contains(*value);
-    let Some(first) = values.iter().position(|value| is_outside(&value)) else { return Ok(()) };
-    let (outside, n) = (values.iter().filter(is_outside).count(), values.len());
-    let example = describe(&samples[first].into().footprint, values[first]);
-    let seen = format!("{outside} of {n} thresholds are NaN or outside [0, 1]; first {example}");
+pub(crate) fn reject_outsiders<F: Copy + Into<Fragment>>(
+    subject: &Subject<'_>,
+    samples: &[F],
+    values: &[f64],
+) -> Attempt<()> {
+    let is_outside = |value: f64| !(0.0..=1.0).contains(&value);
+    let Some(first) = values.iter().position(|&value| is_outside(value)) else { return Ok(()) };
+    let (outside, n) = (values.iter().filter(|&&value| is_outside(value)).count(), values.len());
+    let is_like_it = |_: &Fragment, value: f64| is_outside(value) && value.is_nan() == values[first].is_nan();
+    let example = describe(subject, &samples[first].into(), is_like_it);
+    let seen = format!("{outside} of {n} thresholds are NaN or outside [0, 1]; as in {example}");
     let name = "thresholds outside [0, 1]";
     Err(Box::new(Trial::counted(outside as u64, n as u64, name, "share of samples", seen)))
-}
-
-/// Writes a footprint and its threshold so that they can be tried again.
-pub(crate) fn describe(footprint: &Footprint<f64>, threshold: f64) -> String {
-    let vector = |v: glam::DVec3| format!("({:?}, {:?}, {:?})", v.x, v.y, v.z);
-    format!(
-        "{threshold:?} at position {}, dpdx {}, dpdy {}",
-        vector(footprint.position),
-        vector(footprint.dpdx),
-        vector(footprint.dpdy)
-    )
 }

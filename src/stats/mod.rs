@@ -23,6 +23,7 @@
 //! | [`autocorrelation`] | does a field repeat itself as predicted? |
 //! | [`spectrum`] | does an image have the spectrum that its autocovariance predicts? |
 //! | [`fisher_g`] | is one of many exponential ordinates too large? |
+//! | [`gamma_sum`] | tails of weighted sums of exponential ordinates |
 //! | [`multiplicity`] | what is a p-value worth among many? |
 //! | [`sequential`] | the same, when what is suspect may be asked again on fresh data |
 //! | [`power`] | what is the smallest defect that a test can see? |
@@ -40,6 +41,7 @@ pub mod correlation;
 pub mod ecdf;
 pub mod error;
 pub mod fisher_g;
+pub mod gamma_sum;
 pub mod histogram;
 pub mod multiplicity;
 pub mod normal;

@@ -65,7 +65,7 @@ fn block_of_cells(
             .map(|footprint| subject.precision.round(&footprint))
             .collect();
         let values = subject.thresholds(&layer);
-        reject_outsiders(&layer, &values)?;
+        reject_outsiders(subject, &layer, &values)?;
         use_layer(&values);
     }
     Ok(u64::from(nx) * u64::from(ny) * u64::from(layers))
@@ -73,7 +73,7 @@ fn block_of_cells(
 
 /// Layers of a block: no fewer than [`Budget::Ci`](crate::check::Budget::Ci) has, and no more than [`MOST_LAYERS`].
 fn layers(draw: &Draw, at_ci: u32) -> u32 {
-    draw.stream_at_least(at_ci as usize).min(MOST_LAYERS) as u32
+    draw.stream_at_least(at_ci as usize, at_ci as usize).min(MOST_LAYERS) as u32
 }
 
 fn zero(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {

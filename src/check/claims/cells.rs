@@ -80,7 +80,7 @@ fn origin(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
             })
             .collect();
         let mut values = subject.thresholds(&samples);
-        reject_outsiders(&samples, &values)?;
+        reject_outsiders(subject, &samples, &values)?;
         let Ok(distance) = ecdf::kolmogorov_smirnov(&mut values) else { continue };
         if worst.as_ref().is_none_or(|(w, _)| distance.d > w.d) {
             let range = format!("from {:.6} to {:.6}", values[0], values[values.len() - 1]);
@@ -124,7 +124,7 @@ fn window(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
             for chunk in draw.chunks(n) {
                 let samples = window_samples(subject, direction * offset, chunk, &mut used, &mut rng);
                 let values = subject.thresholds(&samples);
-                reject_outsiders(&samples, &values)?;
+                reject_outsiders(subject, &samples, &values)?;
                 counts.extend(values);
             }
             let name = format!("{offset} cells along {along}");
@@ -204,7 +204,7 @@ fn mirror(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
             }
         }
         let values = subject.thresholds(&samples);
-        reject_outsiders(&samples, &values)?;
+        reject_outsiders(subject, &samples, &values)?;
         let column = |which: usize| values.iter().skip(which).step_by(4).copied().collect::<Vec<f64>>();
         let first = column(0);
         for (index, sums) in moments.iter_mut().enumerate() {

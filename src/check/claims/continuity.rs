@@ -8,10 +8,12 @@ use crate::check::input::{
     UsedCells, at_scale, draw_cell, numerator, placement, tangents, tilted, turned, zoomed,
 };
 use crate::check::predict::{largest_change, log_scale, octaves_between};
+use crate::check::shrink::describe_pair;
 use crate::check::subject::Nominal;
 use crate::check::tolerance::TILT_OCTAVES;
-use crate::check::trial::{describe, detectable_share, reject_outsiders};
+use crate::check::trial::{detectable_share, reject_outsiders};
 use crate::check::{Attempt, Claim, Conclusion, Draw, Evidence, Precision, Promise, Subject, Trial, Verdict};
+use crate::scene::Fragment;
 use crate::stats::{binomial, seed};
 use crate::threshold::footprint::Footprint;
 use crate::threshold::robust::Join;
@@ -145,7 +147,7 @@ fn sweep(subject: &Subject<'_>, draw: &Draw, claim: &str, motion: &Sweep) -> Att
             })
             .collect();
         let thresholds = subject.thresholds(&views);
-        reject_outsiders(&views, &thresholds)?;
+        reject_outsiders(subject, &views, &thresholds)?;
         if dithered {
             pops.add_switches(subject, &views, &thresholds);
         } else {
@@ -175,7 +177,13 @@ impl Pops {
             let after = subject.nominal(&views[step]);
             let jump = (thresholds[step] - thresholds[step - 1]).abs();
             if jump > largest_change(subject, &before, &after) {
-                self.add(jump, || describe(&views[step], thresholds[step]));
+                let pair = [views[step - 1], views[step]].map(Fragment::from);
+                self.add(jump, || {
+                    describe_pair(subject, &pair, |pair, [old, new]| {
+                        let [before, after] = pair.map(|view| subject.nominal(&view.footprint));
+                        (new - old).abs() > largest_change(subject, &before, &after)
+                    })
+                });
             }
             before = after;
         }
@@ -194,7 +202,8 @@ impl Pops {
             if jump > 0.0 {
                 octaves -= 1.0;
                 if octaves < 0.0 {
-                    self.add(jump, || describe(&views[step], thresholds[step]));
+                    let pair = [views[step - 1], views[step]].map(Fragment::from);
+                    self.add(jump, || describe_pair(subject, &pair, |_, [old, new]| old != new));
                 }
             }
         }
@@ -220,7 +229,7 @@ impl Pops {
             effect_name,
             detectable: Some(detectable_share(motions)),
             seen: format!(
-                "{rate:.3} {effect_name}, by {:.3} in the mean and {:.3} at most; first to {}",
+                "{rate:.3} {effect_name}, by {:.3} in the mean and {:.3} at most; as in {}",
                 self.sum / self.count as f64,
                 self.largest,
                 self.first
@@ -242,7 +251,7 @@ fn octave_boundary(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
                 continue;
             }
             let thresholds = subject.thresholds(&views);
-            reject_outsiders(&views, &thresholds)?;
+            reject_outsiders(subject, &views, &thresholds)?;
             pops.add_jumps(subject, &views, &thresholds);
             changes += thresholds.windows(2).filter(|pair| pair[0] != pair[1]).count() as u64;
             let nominal: Vec<Nominal> = views.iter().map(|view| subject.nominal(view)).collect();

@@ -33,6 +33,11 @@ fn object(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
             before.push(earlier);
         }
     }
-    let (first, second) = (subject.thresholds(&before), subject.thresholds(&after));
-    Ok(equality(&before, &first, &[second], "after camera and object have moved"))
+    let asked = [&before, &after].map(|points| subject.thresholds(points));
+    let again = |like: usize, points: &[Fragment]| {
+        let moved = |point: &Fragment| Fragment { footprint: point.footprint, lod: point.lod, ..after[like] };
+        let later: Vec<Fragment> = points.iter().map(moved).collect();
+        vec![subject.thresholds(points), subject.thresholds(&later)]
+    };
+    Ok(equality(subject, &before, &asked, again, "after camera and object have moved"))
 }

@@ -85,7 +85,7 @@ fn mean(claim: &Claim, scenes: Vec<Scene>, subject: &Subject<'_>, draw: &Draw) -
         for chunk in draw.chunks(samples) {
             let samples = more_independent(subject, &scene, chunk, 1, &mut used, &mut rng);
             let values = subject.thresholds(&samples);
-            reject_outsiders(&samples, &values)?;
+            reject_outsiders(subject, &samples, &values)?;
             count += values.len() as u64;
             for (passed, alpha) in passed.iter_mut().zip(COVERAGE_ALPHAS) {
                 *passed += values.iter().filter(|&&threshold| threshold <= alpha).count() as u64;
@@ -143,7 +143,7 @@ fn variance(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
             .flat_map(|_| patch.image(subject, [BLOCK_SIDE; 2], spacing, &mut rng))
             .collect();
         let values = subject.thresholds(&blocks);
-        reject_outsiders(&blocks, &values)?;
+        reject_outsiders(subject, &blocks, &values)?;
         let nominal = subject.nominal(&blocks[0].footprint);
         let above = nominal.lerp_factor >= 0.5;
         let predicted = predicted_variances(subject, &patch, &nominal, spacing);

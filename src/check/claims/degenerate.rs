@@ -1,8 +1,9 @@
 //! Inputs at the edge of the number format: derivatives and positions that are zero, tiny, huge, infinite or NaN, and
 //! surfaces so far from the origin that neighbouring pixels have the same position.
 
-use crate::check::trial::describe;
+use crate::check::shrink::describe;
 use crate::check::{Attempt, Claim, Draw, Promise, Subject, Trial, Verdict};
+use crate::scene::Fragment;
 use crate::stats::seed::uniform01;
 use crate::threshold::footprint::Footprint;
 use glam::{DVec3, Vec3, vec3};
@@ -104,18 +105,19 @@ fn degenerate(subject: &Subject<'_>, _: &Draw) -> Attempt<Trial> {
                 // Only what is not finite may be refused: a pixel with finite derivatives has to be drawn.
                 None if !is_finite(&footprint) => refused += 1,
                 Some(threshold) if is_threshold(threshold) => {}
-                None => {
+                answer => {
                     outside += 1;
-                    first.get_or_insert_with(|| describe(&footprint, f64::NAN));
-                }
-                Some(threshold) => {
-                    outside += 1;
-                    first.get_or_insert_with(|| describe(&footprint, threshold));
+                    first.get_or_insert((footprint, answer));
                 }
             }
         }
     }
-    let first = first.map_or(String::new(), |first| format!("; first {first}"));
+    let first = first.map_or(String::new(), |(footprint, answer)| {
+        let is_like_it = |_: &Fragment, value: f64| {
+            !is_threshold(value) && value.is_nan() == answer.is_none_or(f64::is_nan)
+        };
+        format!("; as in {}", describe(subject, &footprint.into(), is_like_it))
+    });
     let seen = format!("{outside} of {n} answers are no number in (0, 1], {refused} are refusals{first}");
     // A fixed table: what is not on it is not seen.
     Ok(Trial { detectable: None, ..outsiders(outside, n, seen) })
@@ -140,14 +142,19 @@ fn far_from_origin(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
         let bad = |threshold: &f64| !is_threshold(*threshold);
         let count = thresholds.iter().filter(|threshold| bad(threshold)).count();
         if let Some(at) = thresholds.iter().position(bad) {
-            first.get_or_insert_with(|| describe(&quads[at], thresholds[at]));
+            let is_like_it = |quad: &Fragment, value: f64| {
+                let is_far =
+                    quad.footprint.position.truncate().min_element() >= f64::from(FAR_COORDINATES[0]);
+                is_far && bad(&value) && value.is_nan() == thresholds[at].is_nan()
+            };
+            first.get_or_insert_with(|| describe(subject, &quads[at].into(), is_like_it));
         }
         let share = 100.0 * count as f64 / quads.len() as f64;
         seen.push(format!("{share:.1} % at {ratio}"));
         n += quads.len() as u64;
         outside += count as u64;
     }
-    let first = first.map_or(String::new(), |first| format!("; first {first}"));
+    let first = first.map_or(String::new(), |first| format!("; as in {first}"));
     let seen = format!(
         "no number in (0, 1], by the size of a pixel in units in the last place: {}{first}",
         seen.join(", ")

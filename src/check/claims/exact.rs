@@ -1,6 +1,7 @@
 //! What follows from the listings without any chance: where the threshold changes, and by which formula.
 
 use crate::check::input::{Sighting, general_scenes, independent, placement, sighting};
+use crate::check::shrink::{at, describe_pair, shrunk};
 use crate::check::tolerance::{DRAWS_A_PLACE, MEETING};
 use crate::check::trial::detectable_share;
 use crate::check::{Attempt, Claim, Conclusion, Draw, Evidence, Precision, Promise, Subject, Trial, Verdict};
@@ -81,9 +82,7 @@ fn cells(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
             within += 1;
             changed += u64::from(!same);
             if !same {
-                first.get_or_insert_with(|| {
-                    format!("from {} to {} at {}", value[0], value[1], pair[0].footprint.position)
-                });
+                first.get_or_insert([pair[0], pair[1]]);
             }
         } else if subject.join != Join::Dithered || cells[0].coarse_cell != cells[1].coarse_cell {
             // The dithered join reads one of the two cells; both have changed where the coarse one has.
@@ -103,7 +102,13 @@ fn cells(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
         Conclusion::Probability(binomial::poisson_upper_p(kept, across as f64 * MEETING))
     };
     let [changed_share, kept_share] = [changed as f64 / within as f64, kept as f64 / across as f64];
-    let first = first.map_or(String::new(), |first| format!(", first {first}"));
+    let first = first.map_or(String::new(), |pair| {
+        let in_one_cell = |pair: &[Fragment; 2], [old, new]: [f64; 2]| {
+            let [before, after] = pair.map(|at| subject.nominal(&at.footprint));
+            before.fine_cell == after.fine_cell && old.to_bits() != new.to_bits()
+        };
+        format!(", as in {}", describe_pair(subject, &pair, in_one_cell))
+    });
     Ok(Trial {
         conclusion,
         statistic: Some((changed + kept) as f64),
@@ -131,21 +136,25 @@ fn formula(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     };
     let thresholds = subject.thresholds(&samples);
     let allowed = CDF_ROUNDING[usize::from(subject.precision == Precision::F64)];
-    let (mut outside, mut largest, mut first) = (0_u64, 0.0_f64, None);
-    for ((sample, &value), &x) in samples.iter().zip(&thresholds).zip(&interpolated) {
-        let lerp_factor = subject.nominal(&sample.footprint).lerp_factor;
-        let expected = cdf(x, lerp_factor);
-        let error = (value - expected).abs();
-        if error > allowed || error.is_nan() {
-            outside += 1;
-            first.get_or_insert_with(|| {
-                format!("; first {value} for {expected}, of {x} at a lerp factor of {lerp_factor}")
-            });
-        }
-        largest = largest.max(error);
-    }
+    let errors = |samples: &[Fragment], thresholds: &[f64], interpolated: &[f64]| -> Vec<f64> {
+        let values = samples.iter().zip(thresholds).zip(interpolated);
+        let formula = |sample: &Fragment, x| cdf(x, subject.nominal(&sample.footprint).lerp_factor);
+        values.map(|((sample, value), &x)| (value - formula(sample, x)).abs()).collect()
+    };
+    let is_bad = |error: f64| error > allowed || error.is_nan();
+    let found = errors(&samples, &thresholds, &interpolated);
+    let outside = found.iter().filter(|&&error| is_bad(error)).count() as u64;
+    let largest = found.iter().copied().fold(0.0, f64::max);
     let n = samples.len() as u64;
-    let first = first.unwrap_or_default();
+    let first = found.iter().position(|&error| is_bad(error)).map_or(String::new(), |first| {
+        let [shown] = shrunk(&[samples[first]], subject.precision, |candidates| {
+            let candidates = candidates.as_flattened();
+            let interpolated = subject.interpolated(candidates).unwrap_or_default();
+            let found = errors(candidates, &subject.thresholds(candidates), &interpolated);
+            found.into_iter().map(is_bad).collect()
+        });
+        format!(", as in {}", at(subject, &shown))
+    });
     let seen = format!("{outside} of {n} thresholds are not Eq. 2, by up to {largest:.4}{first}");
     let counted = Trial::counted(
         outside,

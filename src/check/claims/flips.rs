@@ -126,8 +126,8 @@ fn translation(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
                     after.push(here.moved(motion, subject.precision).fragment);
                 }
                 let (old, new) = (subject.thresholds(&before), subject.thresholds(&after));
-                reject_outsiders(&before, &old)?;
-                reject_outsiders(&after, &new)?;
+                reject_outsiders(subject, &before, &old)?;
+                reject_outsiders(subject, &after, &new)?;
                 let count = before.len() as f64;
                 for (alpha, [mean, variance]) in ALPHAS.into_iter().zip(expected) {
                     let flips =
@@ -227,7 +227,7 @@ fn sweep(
         left -= batch;
         let fragments: Vec<Fragment> = (0..batch).flat_map(|_| views(&mut rng)).collect();
         let thresholds = subject.thresholds(&fragments);
-        reject_outsiders(&fragments, &thresholds)?;
+        reject_outsiders(subject, &fragments, &thresholds)?;
         for (views, thresholds) in
             fragments.chunks_exact(FLIP_STEPS + 1).zip(thresholds.chunks_exact(FLIP_STEPS + 1))
         {

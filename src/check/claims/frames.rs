@@ -4,6 +4,7 @@ use crate::check::evidence::ComparedShare;
 use crate::check::input::{fragments_everywhere, general_scenes, placement, sighting};
 use crate::check::judge::{detectable_error, equality};
 use crate::check::predict::PairLaw;
+use crate::check::shrink::{at, shrunk};
 use crate::check::tolerance::{ALPHAS, WIDE};
 use crate::check::trial::reject_outsiders;
 use crate::check::{Attempt, Claim, Conclusion, Draw, Evidence, Promise, Subject, Trial, Verdict};
@@ -89,15 +90,15 @@ fn unchanging(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     let points = fragments_everywhere(subject, draw, STATIC.id);
     // Whole periods from the first frame, as far as frames can be counted.
     let periods = FRAMES.map(|frame| frame.min(u32::MAX / subject.frames) * subject.frames);
-    let [first, others @ ..] = periods.map(|frame| in_frame(subject, &points, frame));
-    Ok(equality(&points, &first, &others, "in another frame"))
+    let asked = |points: &[Fragment]| periods.map(|frame| in_frame(subject, points, frame)).to_vec();
+    Ok(equality(subject, &points, &asked(&points), |_, points| asked(points), "in another frame"))
 }
 
 /// Thresholds of points in general position over one period from a frame on: frame by frame.
 fn period(subject: &Subject<'_>, points: &[Fragment], from: u32) -> Attempt<Vec<Vec<f64>>> {
     let frames = (from..from + subject.frames).map(|frame| {
         let values = in_frame(subject, points, frame);
-        reject_outsiders(points, &values).map(|()| values)
+        reject_outsiders(subject, points, &values).map(|()| values)
     });
     frames.collect()
 }
@@ -121,26 +122,39 @@ fn stratified(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     let (mut bad, mut largest, mut first) = (0_u64, 0.0_f64, None);
     // From the first frame on, and from one in the middle of a period.
     let halves = points.split_at(points.len() / 2);
-    for (points, from) in [(halves.0, 0), (halves.1, 4 * subject.frames + subject.frames / 2)] {
+    let errors = |points: &[Fragment], from: u32| -> Attempt<Vec<f64>> {
         let frames = period(subject, points, from)?;
-        for (at, point) in points.iter().enumerate() {
+        let error = |at: usize| {
             let mut values: Vec<f64> = frames.iter().map(|frame| frame[at]).collect();
             values.sort_unstable_by(f64::total_cmp);
             // Around the circle, the last next to the first.
             let around = values[0] + 1.0 - values[values.len() - 1];
             let gaps = values.windows(2).map(|pair| pair[1] - pair[0]).chain([around]);
-            let error = gaps.map(|gap| (gap - stratum).abs()).fold(0.0, f64::max);
+            gaps.map(|gap| (gap - stratum).abs()).fold(0.0, f64::max)
+        };
+        Ok((0..points.len()).map(error).collect())
+    };
+    for (points, from) in [(halves.0, 0), (halves.1, 4 * subject.frames + subject.frames / 2)] {
+        for (point, error) in points.iter().zip(errors(points, from)?) {
             largest = largest.max(error);
             if error > STRATUM_ROUNDING {
                 bad += 1;
-                first.get_or_insert_with(|| format!("{values:?} at {}", point.footprint.position));
+                first.get_or_insert((*point, from));
             }
         }
     }
+    let first = first.map_or(String::new(), |(point, from)| {
+        let [shown] = shrunk(&[point], subject.precision, |candidates| {
+            let candidates = candidates.as_flattened();
+            let found = errors(candidates, from).unwrap_or_else(|_| vec![0.0; candidates.len()]);
+            found.into_iter().map(|error| error > STRATUM_ROUNDING).collect()
+        });
+        let shown = Fragment { frame: from, ..shown };
+        format!("; as in {}, in the {} frames from there on", at(subject, &shown), subject.frames)
+    });
     let seen = format!(
-        "{:.2} % of points do not take each stratum once; first {}",
-        100.0 * bad as f64 / points.len() as f64,
-        first.unwrap_or_default()
+        "{:.2} % of points do not take each stratum once{first}",
+        100.0 * bad as f64 / points.len() as f64
     );
     let name = "largest error of a distance between neighbouring strata";
     let counted =
@@ -227,8 +241,8 @@ fn serial(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
                 after.push(Fragment { pixel: here.fragment.pixel, frame: lag * subject.frames, ..there });
             }
             let (old, new) = (subject.thresholds(&before), subject.thresholds(&after));
-            reject_outsiders(&before, &old)?;
-            reject_outsiders(&after, &new)?;
+            reject_outsiders(subject, &before, &old)?;
+            reject_outsiders(subject, &after, &new)?;
             // A uniform value has a variance of 1/12.
             let products = old.iter().zip(&new).map(|(a, b)| 12.0 * (a - 0.5) * (b - 0.5));
             let name = scene.name.to_owned();

@@ -100,7 +100,7 @@ fn groups<const N: usize>(
             }
         }
         let values = subject.thresholds(&samples);
-        reject_outsiders(&samples, &values)?;
+        reject_outsiders(subject, &samples, &values)?;
         each(&values);
     }
     Ok(())
@@ -114,7 +114,7 @@ fn children(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
         let within = DVec3::from_array([1, 2, 4].map(|bit| f64::from(u32::from(child & bit != 0))));
         let mut table = vec![0; PAIR_BINS * PAIR_BINS];
         let pair = |cell| [in_cell(subject, cell, 0), in_cell(subject, 2.0 * cell + within, 1)];
-        groups(subject, draw, draw.stream_at_least(FAR_PAIRS), &mut rng, pair, |values| {
+        groups(subject, draw, draw.stream_at_least(FAR_PAIRS, FAR_PAIRS), &mut rng, pair, |values| {
             let twos = values.chunks_exact(2).map(|pair| (pair[0], pair[1]));
             let counts = correlation::pair_table(twos, PAIR_BINS);
             table.iter_mut().zip(&counts).for_each(|(sum, count)| *sum += count);

@@ -80,7 +80,7 @@ fn diagonals(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
         .filter(|cells| cells.abs().element_sum() > 1.0)
         .map(|cells| apart(subject, cells))
         .collect();
-    let n = draw.stream_at_least(FAR_PAIRS);
+    let n = draw.stream_at_least(FAR_PAIRS, FAR_PAIRS);
     let what = "thresholds of cells that touch in an edge or corner";
     independent_pairs(&DIAGONALS, subject, draw, &pairings, n, what)
 }
@@ -97,7 +97,7 @@ fn across_zero(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
             [first.fragment, first.moved(DVec3::AXES[axis] * side, subject.precision).fragment]
         })
     };
-    let n = draw.stream_at_least(FAR_PAIRS);
+    let n = draw.stream_at_least(FAR_PAIRS, FAR_PAIRS);
     let pairings = [0, 1, 2].map(pairing);
     independent_pairs(&ACROSS_ZERO, subject, draw, &pairings, n, "thresholds on the two sides of zero")
 }
@@ -116,7 +116,7 @@ fn octaves(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
         let first = found.placed(-beyond / scale, subject.precision);
         [first.fragment, first.nearer(4.0).fragment]
     });
-    let n = draw.stream_at_least(FAR_PAIRS);
+    let n = draw.stream_at_least(FAR_PAIRS, FAR_PAIRS);
     let pairings = [half_the_size, descendant];
     independent_pairs(&OCTAVES, subject, draw, &pairings, n, "thresholds of two octaves")
 }
@@ -140,7 +140,7 @@ fn independent_pairs(
         for chunk in draw.chunks(n) {
             let pairs = pairs(subject, pairing, &scenes, chunk, &mut used, &mut rng);
             let values = subject.thresholds(&pairs);
-            reject_outsiders(&pairs, &values)?;
+            reject_outsiders(subject, &pairs, &values)?;
             let twos = values.chunks_exact(2).map(|pair| (pair[0], pair[1]));
             let counts = correlation::pair_table(twos, PAIR_BINS);
             table.iter_mut().zip(&counts).for_each(|(sum, count)| *sum += count);

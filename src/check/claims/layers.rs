@@ -72,7 +72,7 @@ fn both_kept(subject: &Subject<'_>, groups: impl Iterator<Item = Vec<Fragment>>)
     let mut worst = 0.0_f64;
     for samples in groups {
         let values = subject.thresholds(&samples);
-        reject_outsiders(&samples, &values)?;
+        reject_outsiders(subject, &samples, &values)?;
         let pairs = || values.chunks_exact(2).map(|pair| (pair[0], pair[1]));
         let table = correlation::pair_table(pairs(), PAIR_BINS);
         pooled.iter_mut().zip(&table).for_each(|(sum, count)| *sum += count);

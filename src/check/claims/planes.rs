@@ -11,7 +11,7 @@ use crate::check::evidence::ComparedShare;
 use crate::check::input::placement;
 use crate::check::judge::detectable_error;
 use crate::check::predict::Changes;
-use crate::check::trial::describe;
+use crate::check::shrink::describe;
 use crate::check::{Attempt, Claim, Conclusion, Draw, Evidence, Promise, Subject, Trial, Verdict};
 use crate::scene::{Camera, Fragment, Raster, Rectangle};
 use crate::stats::poisson_binomial;
@@ -128,7 +128,7 @@ fn trial(claim: &Claim, offsets: &[f64], subject: &Subject<'_>, draw: &Draw) -> 
         }
     }
     if let Some(first) = first_invalid {
-        seen.push(format!("first {first}"));
+        seen.push(format!("as in {first}"));
     }
     let excess = points.iter().map(|point| point.measured - point.predicted).reduce(f64::max);
     let (conclusion, statistic, statistic_name) = if invalid > 0 {
@@ -171,7 +171,11 @@ fn counts(
         } else {
             let (fragment, threshold) = if is_valid(old) { (&seen.after, new) } else { (&seen.before, old) };
             counts.invalid += 1;
-            counts.first_invalid.get_or_insert_with(|| describe(&fragment.footprint, threshold));
+            counts.first_invalid.get_or_insert_with(|| {
+                describe(subject, fragment, |_, value| {
+                    !is_valid(value) && value.is_nan() == threshold.is_nan()
+                })
+            });
         }
     }
     counts

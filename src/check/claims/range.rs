@@ -1,7 +1,7 @@
 //! The range of the threshold, on every surface, with derivatives as they are and as a GPU takes them.
 
 use crate::check::input::{placed, placement};
-use crate::check::trial::describe;
+use crate::check::shrink::describe;
 use crate::check::{Attempt, Claim, Draw, Promise, Subject, Trial, Verdict};
 use crate::scene::{Fragment, Scene};
 
@@ -34,9 +34,11 @@ fn range(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
         if let Some(first) = thresholds.iter().position(|&threshold| bad(threshold)) {
             let share = 100.0 * count as f64 / thresholds.len() as f64;
             seen.push(format!(
-                "{}: {share:.1} %, first {}",
+                "{}: {share:.1} %, as in {}",
                 scene.name,
-                describe(&fragments[first].footprint, thresholds[first])
+                describe(subject, &fragments[first], |_, value| {
+                    bad(value) && value.is_nan() == thresholds[first].is_nan()
+                })
             ));
         }
         n += thresholds.len();

@@ -80,7 +80,7 @@ fn planes(
         let scene = [turned(&wall, turn)];
         let samples = more_independent(subject, &scene, n, usize::MAX, &mut used, &mut rng);
         let values = subject.thresholds(&samples);
-        reject_outsiders(&samples, &values)?;
+        reject_outsiders(subject, &samples, &values)?;
         let counts = histogram(values);
         tests.extend(uniformity(&counts));
         let below_half: u64 = counts.counts()[..BINS / 2].iter().sum();

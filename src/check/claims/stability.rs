@@ -69,8 +69,8 @@ fn translate_over(subject: &Subject<'_>, scenes: Vec<Scene>, draw: &Draw, claim:
                         after.push(here.moved(motion, subject.precision).fragment);
                     }
                     let (old, new) = (subject.thresholds(&before), subject.thresholds(&after));
-                    reject_outsiders(&before, &old)?;
-                    reject_outsiders(&after, &new)?;
+                    reject_outsiders(subject, &before, &old)?;
+                    reject_outsiders(subject, &after, &new)?;
                     changed += old.iter().zip(&new).filter(|(a, b)| a != b).count();
                 }
                 let test = expected.compared(changed as u64);

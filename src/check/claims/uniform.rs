@@ -70,12 +70,12 @@ fn marginal_samples(
 ) -> Attempt<()> {
     let mut rng = draw.rng(claim.id);
     let scenes = general_scenes();
-    let n = draw.stream(MARGINAL_SAMPLES).max(LEAST_MARGINAL);
+    let n = draw.stream_at_least(MARGINAL_SAMPLES, LEAST_MARGINAL);
     let mut used = UsedCells::of(draw, 2 * n);
     for chunk in draw.chunks(n) {
         let samples = more_independent(subject, &scenes, chunk, DRAWS_A_PLACE, &mut used, &mut rng);
         let values = subject.thresholds(&samples);
-        reject_outsiders(&samples, &values)?;
+        reject_outsiders(subject, &samples, &values)?;
         each(samples, values);
     }
     Ok(())
