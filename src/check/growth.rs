@@ -12,6 +12,7 @@
 use super::run::tried;
 use super::tolerance::FAMILY_LEVEL;
 use super::{Claim, Conclusion, Draw, Subject, Trial, Verdict};
+use crate::scene::{Fragment, Scene};
 use core::f64::consts::PI;
 use core::hash::Hasher;
 use rustc_hash::FxHasher;
@@ -22,8 +23,8 @@ use std::time::Instant;
 /// or its inputs have no more cells.
 const LEAST_GROWTH: f64 = 1.25;
 
-/// Fragments by whose thresholds two subjects of one name are told apart.
-const FINGERPRINT_STRIDE: usize = 509;
+/// Pixels of the images by whose thresholds two subjects of one name are told apart.
+const FINGERPRINT_RESOLUTION: [u32; 2] = [24, 18];
 
 /// Returns the share of the level that the k-th doubling may spend: (6 / pi^2) / (k + 1)^2. Over all k they add up to 1.
 #[must_use]
@@ -219,15 +220,12 @@ impl Job {
 /// a digest of its thresholds on a fixed set of fragments.
 #[must_use]
 pub fn fingerprint(subject: &Subject<'_>) -> String {
-    let fragments: Vec<_> = crate::scene::Scene::all()
-        .iter()
-        .flat_map(crate::scene::Scene::fragments)
-        .step_by(FINGERPRINT_STRIDE)
-        .map(|fragment| crate::scene::Fragment {
-            footprint: subject.precision.round(&fragment.footprint),
-            ..fragment
-        })
-        .collect();
+    let mut fragments = Vec::new();
+    for scene in Scene::all() {
+        fragments.extend(scene.with_resolution(FINGERPRINT_RESOLUTION).fragments().map(|fragment| {
+            Fragment { footprint: subject.precision.round(&fragment.footprint), ..fragment }
+        }));
+    }
     let mut digest = FxHasher::default();
     subject.thresholds(&fragments).into_iter().for_each(|value| digest.write_u64(value.to_bits()));
     let Subject { name, precision, variant, join, nested_phase, hash_scale, frames, bare_hash, .. } = subject;

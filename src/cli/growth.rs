@@ -102,7 +102,7 @@ fn finish(args: &CheckArgs, rows: &[Row<'_>]) -> Result<Ending, Failure> {
     })
 }
 
-/// Returns what Ctrl-C sets the first time; the second time it ends the process.
+/// Returns what Ctrl-C, or a request to end, sets the first time; the second time it ends the process.
 fn interruption() -> Arc<AtomicBool> {
     let interrupted = Arc::new(AtomicBool::new(false));
     let set = Arc::clone(&interrupted);
