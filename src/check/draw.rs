@@ -50,6 +50,17 @@ impl Budget {
     }
 }
 
+/// How far a threshold is asked to hold.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Reach {
+    /// In the whole domain.
+    #[default]
+    Whole,
+    /// Where the listings hold as they stand: derivatives above zero along every axis, and cells whose indices their sines tell
+    /// apart, below 2^19.
+    Listings,
+}
+
 /// What fixes the inputs of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Draw {
@@ -62,6 +73,8 @@ pub struct Draw {
     /// How often the samples of the budget are doubled ([`growth`](super::growth)); 0 in a run that does not grow. Each
     /// doubling has inputs of its own.
     pub doublings: u32,
+    /// How far a threshold is asked to hold.
+    pub reach: Reach,
 }
 
 impl Draw {

@@ -9,9 +9,9 @@
 //!
 //! Negative controls are left out: a sound subject fails them, and growth shows no more of them.
 
-use super::run::tried;
+use super::run::held;
 use super::tolerance::FAMILY_LEVEL;
-use super::{Claim, Conclusion, Draw, Subject, Trial, Verdict};
+use super::{Claim, Conclusion, Draw, Subject, Verdict};
 use crate::scene::{Fragment, Scene};
 use core::f64::consts::PI;
 use core::hash::Hasher;
@@ -201,7 +201,7 @@ impl Job {
         let doublings = self.steps.len() as u32;
         let draw = Draw { doublings, ..plan.draw };
         let begun = Instant::now();
-        let trial: Trial = tried(&plan.subjects[self.subject], &plan.claims[self.claim], &draw);
+        let trial = held(&plan.subjects[self.subject], &plan.claims[self.claim], &draw);
         Step {
             claim: self.claim,
             subject: self.subject,

@@ -41,7 +41,8 @@ pub fn run(args: &CheckArgs) -> Result<Ending, Failure> {
     for word in typed.iter().filter(|word| subjects::is_in_rust(word, args.shader.on)) {
         output::remark("note", format_args!("{word} runs on the CPU, in Rust"));
     }
-    let draw = Draw { seed: args.seed, budget: args.budget, round: 0, doublings: 0 };
+    let reach = args.suite.reach();
+    let draw = Draw { seed: args.seed, budget: args.budget, reach, ..Draw::default() };
     if args.until_failure {
         return growth::run(args, Plan::new(&claims, subjects, draw, args.doublings));
     }

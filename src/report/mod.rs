@@ -7,6 +7,7 @@
 //! | [`text`] | `cli` | the table for a terminal, one line a claim |
 //! | [`by_model`] | `cli` | which claims hold on which device models |
 //! | [`html`] | `cli` | one page that needs nothing but the pictures beside it |
+//! | [`sampled`] | `cli` | what each claim has sampled of the domain |
 //! | [`study`] | `cli` | plans, counts and numbers of scenes as text, CSV and JSON |
 //! | [`growth`] | samples until failure: the table, one JSON object a claim, the state that a run continues from |
 //! | [`directory`] | `cli` | all of that as files |
@@ -29,6 +30,8 @@ pub mod growth;
 pub mod html;
 #[cfg(feature = "cli")]
 pub mod json;
+#[cfg(feature = "cli")]
+pub mod sampled;
 #[cfg(feature = "cli")]
 pub mod study;
 #[cfg(feature = "cli")]

@@ -2,16 +2,19 @@
 
 pub mod atoms;
 pub mod cells;
+pub mod combinations;
 pub mod continuity;
 pub mod coordinates;
 pub mod coverage;
 pub mod degenerate;
 pub mod determinism;
+pub mod domain;
 pub mod exact;
 pub mod flips;
 pub mod frames;
 pub mod hash;
 pub mod independence;
+pub mod lags;
 pub mod layers;
 pub mod noise_scale;
 pub mod planes;
@@ -36,6 +39,7 @@ const BEYOND_A_HASH: &[&str] = &[
     "spectrum",
     "flips",
     "coordinates",
+    "domain",
     "determinism",
     "symmetry.derivatives",
     "frames",
@@ -78,6 +82,9 @@ pub const ALL: &[Claim] = &[
     hash::DIFFERENCES,
     hash::VALUES,
     hash::RESONANCE,
+    lags::LAGS,
+    combinations::TRIPLES,
+    combinations::SQUARES,
     layers::PARALLEL,
     layers::QUARTER,
     stability::TRANSLATE,
@@ -111,6 +118,11 @@ pub const ALL: &[Claim] = &[
     cells::MIRROR,
     atoms::ZERO,
     atoms::ENDS,
+    domain::UNIFORM,
+    domain::NEIGHBOURS,
+    domain::LAYERS,
+    domain::CHANGES,
+    domain::CONTINUITY,
 ];
 
 #[cfg(test)]

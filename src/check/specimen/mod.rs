@@ -11,6 +11,7 @@ mod clamp;
 pub mod computed;
 mod defect;
 mod derivative;
+mod domain;
 mod frame;
 mod hash;
 mod ideal;
@@ -20,18 +21,20 @@ pub mod matrix;
 mod octave;
 mod pattern;
 mod port;
+mod relation;
 mod repair;
 
 pub use defect::Specimen;
 pub use ideal::{Ideal, ideal};
 
 /// The specimens, family by family.
-const FAMILIES: [&[Specimen]; 12] = [
+const FAMILIES: [&[Specimen]; 14] = [
     input::FAMILY,
     derivative::FAMILY,
     octave::FAMILY,
     cells::FAMILY,
     hash::FAMILY,
+    relation::FAMILY,
     pattern::FAMILY,
     join::FAMILY,
     cdf::FAMILY,
@@ -39,6 +42,7 @@ const FAMILIES: [&[Specimen]; 12] = [
     bias::FAMILY,
     repair::FAMILY,
     frame::FAMILY,
+    domain::FAMILY,
 ];
 
 /// Every specimen, in the order of the kill matrix.
