@@ -51,7 +51,7 @@ const SERIAL: f64 = 0.54;
 const CHANGES: [f64; 2] = [0.13, 0.037];
 
 /// By how much half of the frames are moved, for an error of 1 in the variance of an average over frames: measured.
-const AVERAGE: f64 = 45.0;
+const AVERAGE: f64 = 52.0;
 
 /// Power of a change of the size of the noise that multiplies the variance of blocks: measured.
 const VARIANCE: f64 = 0.46;

@@ -254,7 +254,7 @@ mod tests {
     fn levels_are_told_as_ranges() {
         let mut levels = Levels::default();
         assert_eq!(levels.to_string(), "-");
-        [-100, -3, -2, 5, 6, 7, 9, 1000].map(|level| levels.add(level));
+        [-100, -3, -2, 5, 6, 7, 9, 1000].into_iter().for_each(|level| levels.add(level));
         assert_eq!(levels.to_string(), "-64, -3..-2, 5..7, 9, 63");
     }
 
@@ -264,7 +264,8 @@ mod tests {
         let footprint =
             Footprint { position: dvec3(-300.0, 0.01, 0.02), dpdx: DVec3::X * 0.125, dpdy: DVec3::Z * 0.02 };
         domain.add(&Fragment { lod: -0.5, layer: 2, ..Fragment::from(footprint) }, 1.0);
-        domain.add(&Fragment { frame: 9, ..Fragment::from(Footprint { dpdx: DVec3::ZERO, ..footprint }) }, 2.0);
+        domain
+            .add(&Fragment { frame: 9, ..Fragment::from(Footprint { dpdx: DVec3::ZERO, ..footprint }) }, 2.0);
         assert_eq!(
             domain.to_string(),
             "octaves 3..4; |p| 2^(8), 1 octants and 1 half axes; ratios 2^(2), zero dpdx, along y; lod -1..0; layers 0, 2; \

@@ -30,6 +30,7 @@ pub mod domain;
 #[doc(hidden)]
 pub mod draw;
 pub mod evidence;
+pub mod growth;
 #[doc(hidden)]
 pub mod input;
 #[doc(hidden)]

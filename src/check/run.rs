@@ -13,6 +13,10 @@ use rayon::prelude::*;
 /// for a second try.
 pub const SUSPICION: f64 = 1.0e-2;
 
+/// Why a claim says nothing about a bare hash.
+const BARE_HASH: &str = "a bare hash has one cell and no more: the claim is about what a threshold makes of two cells, or about what \
+                         changes while one looks";
+
 /// Tries every claim on one subject, with seed 0.
 ///
 /// ```
@@ -82,15 +86,23 @@ pub fn run_claims(
     outcomes.into_iter().flatten().collect()
 }
 
-/// Holds one trial, and tells what it sampled; a subject that could not be run is not asked again.
+/// Holds one trial, and tells what it sampled.
 fn tried(subject: &Subject<'_>, claim: &Claim, draw: &Draw) -> (Trial, Domain) {
     let subject = subject.observed();
-    let unavailable = || subject.failure().map(|reason| Trial::without(Conclusion::Unavailable, reason));
-    let trial = unavailable().unwrap_or_else(|| {
-        let trial: Attempt<Trial> = (claim.run)(&subject, draw);
-        unavailable().unwrap_or_else(|| trial.unwrap_or_else(|ended| *ended))
-    });
+    let trial = held(&subject, claim, draw);
     (trial, subject.domain())
+}
+
+/// Holds one trial; a subject that could not be run is not asked again.
+pub(super) fn held(subject: &Subject<'_>, claim: &Claim, draw: &Draw) -> Trial {
+    if subject.bare_hash && claims::is_beyond_a_hash(claim.id) {
+        return Trial::without(Conclusion::NotApplicable, BARE_HASH);
+    }
+    let unavailable = || subject.failure().map(|reason| Trial::without(Conclusion::Unavailable, reason));
+    unavailable().unwrap_or_else(|| {
+        let trial: Attempt<Trial> = (claim.run)(subject, draw);
+        unavailable().unwrap_or_else(|| trial.unwrap_or_else(|ended| *ended))
+    })
 }
 
 fn probability(trial: &Trial) -> Option<f64> {

@@ -36,6 +36,29 @@ pub fn interpreted(
     }))
 }
 
+/// Puts a hash in a shading language on trial in the interpreter: a function from three indices of a cell and its octave to 32
+/// bits, of which the value v becomes the threshold (v + 1/2) / 2^32. All 32 bits count, where hashes of the list keep 23.
+///
+/// # Errors
+///
+/// [`ShaderError`], with its place: something in the shader is not interpreted.
+pub fn interpreted_hash(
+    name: impl Into<String>,
+    shader: &OwnShader,
+    model: DeviceModel,
+) -> Result<Subject<'static>, ShaderError> {
+    let program = shader.program()?;
+    let shader = shader.clone();
+    let (its_program, its_shader) = (program.clone(), shader.clone());
+    let thresholds = move |fragments: &[Fragment]| {
+        let hashes = shader.hashes(&program, fragments, &model).map_err(|error| error.to_string())?;
+        Ok(hashes.into_iter().map(|word| (f64::from(word) + 0.5) / 4_294_967_296.0).collect())
+    };
+    let mut subject = Subject::batched(name, Precision::F64, Variant::Isotropic, thresholds);
+    subject.bare_hash = true;
+    Ok(subject.with_remarks(move || its_shader.remarks(&its_program)))
+}
+
 /// Puts a shader on trial on a device.
 ///
 /// # Errors

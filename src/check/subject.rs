@@ -99,6 +99,9 @@ pub struct Subject<'a> {
     /// Over how many frames it claims to spread its thresholds (Eq. 6), beginning with stratum 0 in frame 0; 1 where a
     /// threshold stays what it is.
     pub frames: u32,
+    /// Whether it is the hash of one cell and no more: no second octave, no join, no Eq. 2. Claims about those say nothing
+    /// about it.
+    pub bare_hash: bool,
     threshold: Evaluation<'a>,
     interpolated: Option<OneByOne<'a>>,
     rescaled: Option<Rescaled<'a>>,
@@ -210,6 +213,7 @@ impl<'a> Subject<'a> {
             nested_phase: false,
             hash_scale: 1.0,
             frames: 1,
+            bare_hash: false,
             threshold,
             interpolated: None,
             rescaled: None,
@@ -258,6 +262,7 @@ impl<'a> Subject<'a> {
             nested_phase: self.nested_phase,
             hash_scale: self.hash_scale,
             frames: self.frames,
+            bare_hash: self.bare_hash,
             asked,
             ..Subject::evaluated_by(self.name.clone(), self.precision, self.variant, threshold)
         }
@@ -270,7 +275,8 @@ impl<'a> Subject<'a> {
 
     /// Returns what an observed subject was asked for so far; nothing for any other.
     pub(crate) fn domain(&self) -> Domain {
-        let asked = self.asked.as_ref().map(|asked| asked.lock().unwrap_or_else(PoisonError::into_inner).clone());
+        let asked =
+            self.asked.as_ref().map(|asked| asked.lock().unwrap_or_else(PoisonError::into_inner).clone());
         asked.unwrap_or_default()
     }
 
@@ -362,6 +368,27 @@ impl<'a> Subject<'a> {
         Self { threshold: Evaluation::Batch(model), ..described }.with_hash_scales(rescaled)
     }
 
+    /// Puts a hash on trial alone: its threshold is the hash of [the coarse cell](scales::only_cell), wherever the footprint
+    /// lies between two octaves.
+    ///
+    /// ```
+    /// use hashed_alpha::check::{Subject, subject::Precision};
+    /// use hashed_alpha::threshold::hash::HashKind;
+    ///
+    /// assert!(Subject::of_hash("hash:mm4", Precision::F32, HashKind::Mm4).bare_hash);
+    /// ```
+    #[must_use]
+    pub fn of_hash<H>(name: impl Into<String>, precision: Precision, hash: H) -> Self
+    where
+        H: Hash<f32> + Hash<f64> + Copy + Send + 'a,
+    {
+        let value = move |footprint: &Footprint<f64>| match precision {
+            Precision::F32 => hash.hash(&scales::only_cell::<f32>(&footprint.cast())).to_f64(),
+            Precision::F64 => hash.hash(&scales::only_cell(footprint)),
+        };
+        Self { bare_hash: true, ..Self::new(name, precision, Variant::Isotropic, value) }
+    }
+
     /// Spreads the thresholds over `n` frames: frame i has stratum i of the alternating order, each of width 1 / n. Eq. 6
     /// with the clamp after it, §7.2.3.
     ///
@@ -393,7 +420,9 @@ impl<'a> Subject<'a> {
             })),
         };
         let rescaled = self.rescaled.map(|rescaled| -> Rescaled<'a> {
-            Box::new(move |times, fragments| Ok(spread_all(rescaled(times, &all_first(fragments))?, fragments)))
+            Box::new(move |times, fragments| {
+                Ok(spread_all(rescaled(times, &all_first(fragments))?, fragments))
+            })
         });
         Self { name: format!("{}, {n} frames", self.name), frames: n.get(), threshold, rescaled, ..self }
     }

@@ -1,8 +1,8 @@
 //! The outcomes as JSON Lines: one object a claim, in the order in which the claims were tried.
 
 use crate::check::domain::Levels;
-use crate::check::{Domain, Outcome};
 use crate::check::known::listing_fails;
+use crate::check::{Domain, Outcome};
 use serde::Serialize;
 use std::io::{self, Write};
 

@@ -9,6 +9,7 @@
 //! | [`html`] | `cli` | one page that needs nothing but the pictures beside it |
 //! | [`sampled`] | `cli` | what each claim has sampled of the domain |
 //! | [`study`] | `cli` | plans, counts and numbers of scenes as text, CSV and JSON |
+//! | [`growth`] | samples until failure: the table, one JSON object a claim, the state that a run continues from |
 //! | [`directory`] | `cli` | all of that as files |
 //! | [`cost`] | `cli` | what was measured of time: tables, JSON Lines, pictures |
 //!
@@ -23,6 +24,8 @@ pub mod cost;
 pub mod directory;
 #[cfg(feature = "plots")]
 pub mod figure;
+#[cfg(feature = "cli")]
+pub mod growth;
 #[cfg(feature = "cli")]
 pub mod html;
 #[cfg(feature = "cli")]

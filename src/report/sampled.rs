@@ -3,17 +3,8 @@
 use crate::check::{Domain, Outcome};
 
 /// What the columns are. Levels of a logarithm to base two are whole octaves, both ends included.
-pub const HEADINGS: [&str; 9] = [
-    "sampled by",
-    "octaves",
-    "log2 |p|",
-    "octants",
-    "log2 dx/dy",
-    "lod",
-    "layers",
-    "frames",
-    "hash scale",
-];
+pub const HEADINGS: [&str; 9] =
+    ["sampled by", "octaves", "log2 |p|", "octants", "log2 dx/dy", "lod", "layers", "frames", "hash scale"];
 
 /// Returns one row a claim, over all subjects of the outcomes, in the order in which the claims come first. Claims that asked no
 /// subject for a threshold have none.

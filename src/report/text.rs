@@ -228,7 +228,7 @@ fn push_diagnosis(text: &mut String, diagnosis: &Diagnosis<'_>) {
 }
 
 /// Breaks a text between words; a word that is longer than the line is broken too.
-fn wrap(text: &str, width: usize) -> Vec<String> {
+pub(super) fn wrap(text: &str, width: usize) -> Vec<String> {
     let mut lines = vec![String::new()];
     for word in text.split_whitespace() {
         let pieces: Vec<char> = word.chars().filter(|c| !c.is_control()).collect();

@@ -164,7 +164,10 @@ fn uniform(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     for (name, histogram) in pools.settings().filter(|(_, histogram)| histogram.total() > 0) {
         let (n, error) = (histogram.total(), coverage_error(histogram));
         worst.add(bound(n, error), error, || {
-            format!("of {n} thresholds at {name} the share that is kept is off by up to {:.2} %", 100.0 * error)
+            format!(
+                "of {n} thresholds at {name} the share that is kept is off by up to {:.2} %",
+                100.0 * error
+            )
         });
     }
     let whole = pools.levels().next().map(|(name, histogram)| NamedHistogram::new(name, histogram));
@@ -202,11 +205,7 @@ fn bound(n: u64, distance: f64) -> f64 {
 type Partner = fn(&Subject<'_>, &Fragment, &mut Xoshiro256PlusPlus) -> Fragment;
 
 /// The same place in the next cell along an axis, one to either side, as far as the precision of a position goes.
-fn neighbour(
-    subject: &Subject<'_>,
-    here: &Fragment,
-    rng: &mut Xoshiro256PlusPlus,
-) -> Fragment {
+fn neighbour(subject: &Subject<'_>, here: &Fragment, rng: &mut Xoshiro256PlusPlus) -> Fragment {
     let side = subject.nominal(&here.footprint).coarse_scale.map(|scale| 1.0 / scale);
     let axis = (3.0 * uniform01(rng)) as usize;
     let sign = if uniform01(rng) < 0.5 { -1.0 } else { 1.0 };
@@ -214,14 +213,11 @@ fn neighbour(
 }
 
 /// The same pixel on another layer, that many cells behind.
-fn behind(
-    subject: &Subject<'_>,
-    here: &Fragment,
-    rng: &mut Xoshiro256PlusPlus,
-) -> Fragment {
+fn behind(subject: &Subject<'_>, here: &Fragment, rng: &mut Xoshiro256PlusPlus) -> Fragment {
     let side = subject.nominal(&here.footprint).coarse_scale.map(|scale| 1.0 / scale);
     let [near, far] = BEHIND;
-    let away = DVec3::from_array(side) * DVec3::from_array([(); 3].map(|()| 2.0 * uniform01(rng) - 1.0)).normalize_or(DVec3::Z);
+    let away = DVec3::from_array(side)
+        * DVec3::from_array([(); 3].map(|()| 2.0 * uniform01(rng) - 1.0)).normalize_or(DVec3::Z);
     let there = moved(subject, here, away * (near + (far - near) * uniform01(rng)));
     Fragment { pixel: here.pixel, layer: here.layer + 1 + (3.0 * uniform01(rng)) as u32, ..there }
 }
@@ -287,7 +283,8 @@ fn pairs(claim: &Claim, subject: &Subject<'_>, draw: &Draw, partner: Partner) ->
                     let nominal = [here, there].map(|fragment| subject.nominal(&fragment.footprint));
                     let [a, b] = &nominal;
                     // Where the position is too coarse for a step of one cell there is no pair.
-                    (a.coarse_cell != b.coarse_cell && a.fine_cell != b.fine_cell).then_some(([here, there], nominal))
+                    (a.coarse_cell != b.coarse_cell && a.fine_cell != b.fine_cell)
+                        .then_some(([here, there], nominal))
                 })
             })
             .collect();
@@ -332,8 +329,10 @@ fn pairs(claim: &Claim, subject: &Subject<'_>, draw: &Draw, partner: Partner) ->
             power::detectable_effect_chi_square(dof, smallest, SINGLE_LEVEL / worst.tests as f64, POWER)
         }),
         seen: worst.seen,
-        evidence: whole
-            .map_or(Evidence::None, |(_, table)| Evidence::Pairs { side: SIDE, counts: table.counts.clone() }),
+        evidence: whole.map_or(Evidence::None, |(_, table)| Evidence::Pairs {
+            side: SIDE,
+            counts: table.counts.clone(),
+        }),
     })
 }
 
@@ -373,7 +372,8 @@ fn changes(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
             for at in 0..MOVED {
                 let here = sampler.fragment(&mut rng);
                 let along = if at % 2 == 0 { here.footprint.dpdx } else { here.footprint.dpdy };
-                let there = moved(subject, &here, along * (SHIFTS[at / 2 % SHIFTS.len()] * subject.hash_scale));
+                let there =
+                    moved(subject, &here, along * (SHIFTS[at / 2 % SHIFTS.len()] * subject.hash_scale));
                 changes.add(subject, &here.footprint, there.footprint.position - here.footprint.position);
                 let [before, after] = [here, there].map(|fragment| subject.nominal(&fragment.footprint));
                 slopes.push(largest_change(subject, &before, &after));

@@ -1,8 +1,8 @@
 //! Thresholds over the frames of one point, and over the frames of one pixel.
 
 use crate::check::evidence::ComparedShare;
-use crate::check::input::{fragments_everywhere, general_scenes, placement, sighting};
 use crate::check::input::everywhere::any_frame;
+use crate::check::input::{fragments_everywhere, general_scenes, placement, sighting};
 use crate::check::judge::{detectable_error, equality};
 use crate::check::predict::PairLaw;
 use crate::check::shrink::{at, shrunk};
@@ -101,7 +101,13 @@ fn unchanging(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
         frames.iter().map(|&frame| in_frame(subject, points, frame)).collect::<Vec<_>>()
     };
     let tried = |points: &[Fragment], frames: &[u32]| {
-        equality(subject, points, &in_frames(points, frames), |_, points| in_frames(points, frames), "in another frame")
+        equality(
+            subject,
+            points,
+            &in_frames(points, frames),
+            |_, points| in_frames(points, frames),
+            "in another frame",
+        )
     };
     let mut rng = draw.rng("frames.static, more frames");
     let any = (0..MORE_FRAMES).map(|_| any_frame(&mut rng) / subject.frames);

@@ -5,10 +5,10 @@
 //! every level of every dimension comes up as often as any other (a Latin hypercube); which levels come together depends on the
 //! seed. The corners, where octave, distance and ratio are at their ends, are always among them.
 
+use crate::check::Subject;
 use crate::check::draw::{Draw, Reach};
 use crate::check::input::{numerator, rotation};
 use crate::check::subject::Nominal;
-use crate::check::Subject;
 use crate::scene::Fragment;
 use crate::stats::seed::uniform01;
 use crate::threshold::footprint::Footprint;
@@ -319,13 +319,7 @@ impl<'a> Sampler<'a> {
     }
 
     /// The fragment of a place and its derivatives, at a pixel of the setting's surface.
-    pub fn at(
-        &self,
-        position: DVec3,
-        dpdx: DVec3,
-        dpdy: DVec3,
-        rng: &mut Xoshiro256PlusPlus,
-    ) -> Fragment {
+    pub fn at(&self, position: DVec3, dpdx: DVec3, dpdy: DVec3, rng: &mut Xoshiro256PlusPlus) -> Fragment {
         let footprint = self.subject.precision.round(&Footprint { position, dpdx, dpdy });
         let step = rng.next_u64();
         let away = dvec2((step & 63) as f64, (step >> 6 & 63) as f64);
@@ -391,11 +385,7 @@ impl<'a> Sampler<'a> {
         let longer = numerator(self.subject.variant) * libm::exp2(-octave) / self.subject.hash_scale;
         // From half of the level's ratio up to it.
         let shorter = longer * libm::exp2(-(f64::from(ratio.abs()) - uniform01(rng)).max(0.0));
-        let [x, y] = if ratio >= 0 {
-            [x * longer, y * shorter]
-        } else {
-            [x * shorter, y * longer]
-        };
+        let [x, y] = if ratio >= 0 { [x * longer, y * shorter] } else { [x * shorter, y * longer] };
         match zero {
             1 => [DVec3::ZERO, y],
             2 => [x, DVec3::ZERO],

@@ -13,6 +13,7 @@ pub(crate) use cell::{at_scale, draw_cell, in_cell, numerator};
 pub(crate) use motion::Motion;
 pub(crate) use patch::{Patch, Start, rotation};
 pub(crate) use sample::{
-    Sighting, UsedCells, fragments_everywhere, general_scenes, independent, placed, placement, sighting,
+    Sighting, UsedCells, fragments_everywhere, general_scenes, independent, more_independent, placed,
+    placement, sighting,
 };
 pub(crate) use view::{tangents, tilted, turned, zoomed};

@@ -21,7 +21,9 @@ impl<T: Clone> Pools<T> {
         merge(&mut self.all, &counted);
         for dimension in Dimension::ALL {
             match self.levels.entry((dimension, setting.level(dimension))) {
-                std::collections::hash_map::Entry::Occupied(mut entry) => merge(&mut entry.get_mut().1, &counted),
+                std::collections::hash_map::Entry::Occupied(mut entry) => {
+                    merge(&mut entry.get_mut().1, &counted)
+                }
                 std::collections::hash_map::Entry::Vacant(entry) => {
                     entry.insert((setting.told(dimension, &settings.scales), counted.clone()));
                 }

@@ -58,7 +58,8 @@ pub(super) const FAMILY: &[Specimen] = &[
         mend: "hash all three indices",
         claim: "domain.layers",
         subject: || {
-            let hash = |[x, y, z]: [f64; 3], octave| ideal_hash([x, y, if octave < -8 { 0.0 } else { z }], octave);
+            let hash =
+                |[x, y, z]: [f64; 3], octave| ideal_hash([x, y, if octave < -8 { 0.0 } else { z }], octave);
             Port { hash, ..SOUND }.subject()
         },
     },

@@ -165,7 +165,10 @@ impl OwnShader {
     /// Returns the value of the parameter `hash_scale`; nothing where the function has no such parameter.
     #[must_use]
     pub fn hash_scale(&self) -> Option<f32> {
-        self.bindings.iter().filter(|binding| binding.name == "hash_scale").find_map(|binding| binding.input.as_f32())
+        self.bindings
+            .iter()
+            .filter(|binding| binding.name == "hash_scale")
+            .find_map(|binding| binding.input.as_f32())
     }
 
     /// The same with the value of the parameter `hash_scale` so many times as large.
