@@ -34,8 +34,12 @@ enum Law {
     Bound(&'static str),
 }
 
+/// Why the p-values of claims about the whole domain are bounds.
+const PARTS: &str =
+    "the worst of hundreds of parts of the domain that share samples, most of them judged by an inequality";
+
 /// Claims whose p-values are no [`Law::Larger`].
-const LAWS: [(&str, Law); 12] = [
+const LAWS: [(&str, Law); 16] = [
     ("uniform.marginal", Law::Uniform),
     ("uniform.constant_x", Law::Uniform),
     ("uniform.constant_y", Law::Uniform),
@@ -43,6 +47,10 @@ const LAWS: [(&str, Law); 12] = [
     ("uniform.any_plane", Law::Uniform),
     ("exact.cells", Law::Bound("chance may keep one threshold in 2048, as for the sine hash in f32")),
     ("hash.values", Law::Bound("four times as many pairs may meet as on a lattice of 24 bits")),
+    ("domain.uniform", Law::Bound(PARTS)),
+    ("domain.neighbours", Law::Bound(PARTS)),
+    ("domain.layers", Law::Bound(PARTS)),
+    ("domain.changes", Law::Bound(PARTS)),
     (
         "cells.origin",
         Law::Bound("the inequality of Dvoretzky, Kiefer, Wolfowitz and Massart for few values, times eight"),
