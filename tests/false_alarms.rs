@@ -22,12 +22,7 @@ fn a_threshold_of_sixteen_bits_or_in_half_floats_is_sound() {
     // The smallest value that can be stored takes the place of 0, which would keep what is wholly transparent.
     let fixed: fn(f32) -> f32 = |x| (x * 65_536.0).round().max(1.0) / 65_536.0;
     let half: fn(f32) -> f32 = |x| half::f16::from_f32(x).max(half::f16::MIN_POSITIVE_SUBNORMAL).to_f32();
-    let subjects: Vec<Subject<'_>> = [fixed, half]
-        .into_iter()
-        .flat_map(|stored| {
-            [Variant::Isotropic, Variant::Anisotropic].map(|variant| quantised(variant, stored))
-        })
-        .collect();
+    let subjects = [quantised(Variant::Isotropic, fixed), quantised(Variant::Anisotropic, half)];
     let draw = Draw { budget: Budget::Quick, ..Draw::default() };
     for outcome in run_claims(claims::ALL, &subjects, &draw, || {}) {
         let is_policy = outcome.check == POLICY;

@@ -104,7 +104,7 @@ fn correlation_of_uniform_values() {
     let steps = 2000;
     let moment: f64 = (0..steps).map(|i| inner((f64::from(i) + 0.5) / f64::from(steps) - 0.5)).sum::<f64>()
         / f64::from(steps);
-    let mut pair = |rng: &mut dyn FnMut() -> f64| loop {
+    let pair = |rng: &mut dyn FnMut() -> f64| loop {
         let u = rng() - 0.5;
         if rng() * inner(0.5) > inner(u) {
             continue;
