@@ -226,6 +226,13 @@ pub const OF_THE_LISTINGS: &[Known] = &[
         "hash3D in f32 has the variety of some 4000 values: two cells in 4000 have the same threshold",
     ),
     fails(
+        "hash.lags",
+        LISTINGS,
+        F32,
+        "hash3D repeats: 3550 cells along z are 113 half turns of its outer sine and 14 690 of its inner one, and in f32 \
+                 cells there add up to 1 more often than they should",
+    ),
+    fails(
         "range",
         LISTING_2,
         BOTH,

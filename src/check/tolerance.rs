@@ -63,5 +63,17 @@ pub const ALPHAS: [f64; 3] = [0.1, 0.3, 0.5];
 /// points with an interval in common are not independent; an `f32` position keeps a hundredth of a cell.
 pub const WIDE: f64 = 16.0;
 
+/// Cells along each side of what one view can show: as many as a screen of 4096 pixels has, cells being no smaller than a
+/// pixel where their octave has most of the weight. A repeat at this distance or a larger one is tolerated along an axis and in
+/// a plane of two axes, where walls and floors are. In all other directions it is tolerated beyond [`VIEW_DEPTH`]. Any linear
+/// combination of indices modulo 2^32 repeats within 1626 cells in space and within 65 536 in a plane of two axes, by
+/// counting (Minkowski), and may be the input of a sound hash.
+pub const VIEW: u32 = 4096;
+
+/// Cells along each side of a cube that has as many cells as a view of [`VIEW`]: no repeat is tolerated below this
+/// distance, in whatever direction. A surface holds a longer vector that is along no plane of two axes to within a cell if its
+/// direction is one of some hundred.
+pub const VIEW_DEPTH: u32 = 256;
+
 /// Points of a claim that allows not one change.
 pub const EXACT_POINTS: usize = 1 << 12;

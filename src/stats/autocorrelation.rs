@@ -1,39 +1,46 @@
-//! Does a field repeat itself as predicted? Autocorrelation of images and series.
+//! Does an image repeat itself as predicted? Its autocovariance at circular lags.
 //!
-//! A series is an image of one row. The mean of the field is known, not estimated, so that an estimate at one
-//! lag is the plain average of the products at that distance.
+//! A circular lag counts the pixels that leave the image on one side as if they came in on the other: every lag has as many
+//! pairs as there are pixels, and the average of their products is a sum of ordinates of the
+//! [periodogram](super::spectrum::periodogram) with the weights of a cosine. That gives it a law: the ordinates are nearly
+//! independent exponential values ([`gamma_sum`](super::gamma_sum)).
 
-use super::StatsError;
+use std::f64::consts::TAU;
 
-/// Averages the products of all pairs of pixels at a lag, less the mean each: the estimate of the
-/// autocovariance.
-///
-/// # Errors
-/// [`StatsError::LengthMismatch`] if the image has another size, [`StatsError::Empty`] if the lag leaves no
-/// pairs.
-pub fn estimate(image: &[f64], size: [usize; 2], mean: f64, lag: [i64; 2]) -> Result<f64, StatsError> {
-    if image.len() != size[0] * size[1] {
-        return Err(StatsError::LengthMismatch { left: image.len(), right: size[0] * size[1] });
-    }
-    let [columns, rows] = overlap(size, lag);
-    if columns <= 0 || rows <= 0 {
-        return Err(StatsError::Empty);
-    }
-    // The pair of a pixel is on its right or left, and always below or in the same row.
-    let [dx, dy] = if lag[1] < 0 { lag.map(|l| -l) } else { lag };
-    let (left, right) = ((-dx).max(0) as usize, dx.max(0) as usize);
-    let (columns, below) = (columns as usize, dy as usize);
-    let sum: f64 = (0..rows as usize)
-        .map(|row| {
-            let first = &image[row * size[0] + left..][..columns];
-            let second = &image[(row + below) * size[0] + right..][..columns];
-            first.iter().zip(second).map(|(a, b)| (a - mean) * (b - mean)).sum::<f64>()
-        })
-        .sum();
-    Ok(sum / (columns as i64 * rows) as f64)
+/// What one ordinate of a periodogram adds to the autocovariance at a lag, together with the ordinate that mirrors it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Part {
+    /// Index of the ordinate.
+    pub index: usize,
+    /// What an ordinate without a mirror image would be multiplied by; with one it is half of that each.
+    pub weight: f64,
+    /// Shape of the gamma law that the ordinate follows, in units of `weight` times its expectation: 1, or 1/2 where it
+    /// is its own mirror image.
+    pub shape: f64,
 }
 
-/// Columns and rows of the pixels that have a pair; not above 0 if there are none.
-fn overlap(size: [usize; 2], lag: [i64; 2]) -> [i64; 2] {
-    [0, 1].map(|axis| size[axis] as i64 - lag[axis].abs())
+/// Gives the parts of the autocovariance at a circular lag: it is the sum of `shape * weight * periodogram[index]`.
+///
+/// The squared sum enters, as it does with the mean that is subtracted beforehand. Layout as in
+/// [`periodogram`](super::spectrum::periodogram).
+///
+/// # Panics
+/// If a side of `size` is 0.
+#[must_use]
+pub fn parts([width, height]: [usize; 2], lag: [i64; 2]) -> Vec<Part> {
+    assert!(width > 0 && height > 0, "an image without pixels");
+    let mut parts = Vec::with_capacity(width * height / 2 + 2);
+    for index in 0..width * height {
+        let [kx, ky] = [index % width, index / width];
+        let mirror = (height - ky) % height * width + (width - kx) % width;
+        if mirror < index {
+            continue;
+        }
+        // Whole turns are taken off before they cost digits.
+        let turns = |k: usize, lag: i64, n: usize| (k as i64 * lag).rem_euclid(n as i64) as f64 / n as f64;
+        let angle = TAU * (turns(kx, lag[0], width) + turns(ky, lag[1], height));
+        let weight = 2.0 * libm::cos(angle) / (width * height) as f64;
+        parts.push(Part { index, weight, shape: if mirror == index { 0.5 } else { 1.0 } });
+    }
+    parts
 }

@@ -21,8 +21,11 @@
 //! | [`correlation`] | are two sequences related? |
 //! | [`tails`] | both tails of a statistic, and their common p-value |
 //! | [`autocorrelation`] | does a field repeat itself as predicted? |
+//! | [`forms`] | do three values satisfy a linear relation? |
+//! | [`lags`] | does a block of values repeat itself at any distance? |
 //! | [`spectrum`] | does an image have the spectrum that its autocovariance predicts? |
 //! | [`fisher_g`] | is one of many exponential ordinates too large? |
+//! | [`gamma_sum`] | tails of weighted sums of exponential ordinates |
 //! | [`multiplicity`] | what is a p-value worth among many? |
 //! | [`sequential`] | the same, when what is suspect may be asked again on fresh data |
 //! | [`power`] | what is the smallest defect that a test can see? |
@@ -40,7 +43,10 @@ pub mod correlation;
 pub mod ecdf;
 pub mod error;
 pub mod fisher_g;
+pub mod forms;
+pub mod gamma_sum;
 pub mod histogram;
+pub mod lags;
 pub mod multiplicity;
 pub mod normal;
 pub mod poisson_binomial;
@@ -49,6 +55,7 @@ pub mod seed;
 pub mod sequential;
 pub mod spectrum;
 pub mod tails;
+mod transform;
 pub mod two_sample;
 pub mod variance;
 

@@ -8,6 +8,7 @@ mod collisions;
 mod correlation;
 mod ecdf;
 mod fisher_g;
+mod gamma_sum;
 mod histogram;
 mod multiplicity;
 mod normal;

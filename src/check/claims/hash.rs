@@ -1,7 +1,7 @@
 //! The hash of single cells, seen through thresholds at whole octaves, where the other octave has no weight.
 
 use crate::check::evidence::NamedHistogram;
-use crate::check::input::{UsedCells, at_scale, draw_cell};
+use crate::check::input::{UsedCells, draw_cell, in_cell};
 use crate::check::judge::{detectable_factor, histogram, uncorrelated};
 use crate::check::tolerance::{DRAWS_A_SAMPLE, FAR_PAIRS, PAIR_BINS};
 use crate::check::trial::reject_outsiders;
@@ -66,14 +66,6 @@ pub const RESONANCE: Claim = Claim {
     promise: Some(Promise::Root(0.1)),
     run: resonance,
 };
-
-/// The footprint in a cell of octave `octave` where that octave has all weight.
-fn in_cell(subject: &Subject<'_>, cell: DVec3, octave: i32) -> Footprint<f64> {
-    let side = libm::exp2(f64::from(-octave));
-    let position = (cell + 0.25) * side;
-    let scale = [f64::from(octave); 3];
-    subject.precision.round(&at_scale(subject.variant, subject.hash_scale, position, scale))
-}
 
 /// Draws `n` groups of footprints out of a cell each, no two groups touching the same cell, and evaluates them.
 fn groups<const N: usize>(

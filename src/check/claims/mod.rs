@@ -2,6 +2,7 @@
 
 pub mod atoms;
 pub mod cells;
+pub mod combinations;
 pub mod continuity;
 pub mod coordinates;
 pub mod coverage;
@@ -12,6 +13,7 @@ pub mod flips;
 pub mod frames;
 pub mod hash;
 pub mod independence;
+pub mod lags;
 pub mod layers;
 pub mod noise_scale;
 pub mod planes;
@@ -49,6 +51,9 @@ pub const ALL: &[Claim] = &[
     hash::DIFFERENCES,
     hash::VALUES,
     hash::RESONANCE,
+    lags::LAGS,
+    combinations::TRIPLES,
+    combinations::SQUARES,
     layers::PARALLEL,
     layers::QUARTER,
     stability::TRANSLATE,

@@ -83,7 +83,11 @@ fn trial(claim: &Claim, kinds: &[(f64, &str)], subject: &Subject<'_>, draw: &Dra
     };
     let evidence =
         Evidence::Quantity { abscissa: "lerp factor", ordinate: "mean run length [pixels]", points };
-    Ok(replicate_means::worst_of(&means, n, "relative error in changes per pixel", seen, evidence))
+    let replicates = draw.samples_at_least(SCAN_LINES);
+    let law = format!("Student's t, {} dof", replicates - 1);
+    let detectable = replicate_means::detectable(&means, replicates);
+    let effect_name = "relative error in changes per pixel";
+    Ok(replicate_means::worst_of(&means, &law, detectable, n, effect_name, seen, evidence))
 }
 
 /// Walks along a screen axis, each time over a patch of its own at a place of its own.

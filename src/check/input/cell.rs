@@ -1,11 +1,16 @@
 //! Footprints in given cells, at given scales.
 
+use crate::check::Subject;
 use crate::check::tolerance::SPREAD;
 use crate::stats::seed;
 use crate::threshold::footprint::Footprint;
 use crate::threshold::two_scale::Variant;
 use glam::{DVec3, dvec3};
 use rand::rngs::Xoshiro256PlusPlus;
+
+/// Octaves out of which one is drawn where a claim is about the cells of one: from cells of 1024 units to cells of a
+/// thousandth.
+const DRAWN_OCTAVES: core::ops::Range<i32> = -10..11;
 
 /// What a scale is divided by: Listing 2 counts the diagonal of a cell.
 pub(crate) fn numerator(variant: Variant) -> f64 {
@@ -27,6 +32,20 @@ pub(crate) fn at_scale(
         dvec3(derivative[0], 0.0, 0.0)
     };
     Footprint { position, dpdx, dpdy: dpdx * 0.5 }
+}
+
+/// The footprint in a cell of octave `octave` where that octave has all weight.
+pub(crate) fn in_cell(subject: &Subject<'_>, cell: DVec3, octave: i32) -> Footprint<f64> {
+    let side = libm::exp2(f64::from(-octave));
+    let position = (cell + 0.25) * side;
+    let scale = [f64::from(octave); 3];
+    subject.precision.round(&at_scale(subject.variant, subject.hash_scale, position, scale))
+}
+
+/// Draws an octave out of [`DRAWN_OCTAVES`].
+pub(crate) fn draw_octave(rng: &mut Xoshiro256PlusPlus) -> i32 {
+    let count = f64::from(DRAWN_OCTAVES.end - DRAWN_OCTAVES.start);
+    DRAWN_OCTAVES.start + (seed::uniform01(rng) * count) as i32
 }
 
 /// Draws a cell within [`SPREAD`] of the origin along every axis.

@@ -1,12 +1,14 @@
 //! Inputs of the claims, drawn by rule: fragments of surfaces, of cells, of patches, of motions.
 
+pub(crate) mod block;
 pub mod cell;
 pub mod motion;
 pub mod patch;
 pub mod sample;
 pub mod view;
 
-pub(crate) use cell::{at_scale, draw_cell, numerator};
+pub(crate) use block::{Block, cube};
+pub(crate) use cell::{at_scale, draw_cell, in_cell, numerator};
 pub(crate) use motion::Motion;
 pub(crate) use patch::{Patch, Start, rotation};
 pub(crate) use sample::{

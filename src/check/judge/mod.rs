@@ -3,6 +3,7 @@
 pub mod correlations;
 pub mod counts;
 pub mod equality;
+pub mod powers;
 pub mod replicate_means;
 pub mod shares;
 pub mod uniformity;
@@ -10,5 +11,6 @@ pub mod uniformity;
 pub(crate) use correlations::uncorrelated;
 pub(crate) use counts::detectable_factor;
 pub(crate) use equality::equality;
+pub(crate) use powers::detectable_change;
 pub(crate) use shares::detectable_error;
 pub(crate) use uniformity::{histogram, uniformity};

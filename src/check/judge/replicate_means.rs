@@ -1,8 +1,8 @@
-//! Means of independent replicates: how claims about noise as a whole are tested.
+//! Means that should be zero, and the worst of them.
 //!
 //! Pixels of one image depend on each other in ways that hardly have a closed form; images at places of their own do
-//! not depend on each other at all. So each image gives one number whose expectation is known, and Student's law judges
-//! their mean.
+//! not depend on each other at all. So each image gives numbers whose expectation is known, and their mean is judged: by
+//! the law of what it is made of where that is known, by Student's law otherwise.
 
 use crate::check::tolerance::{POWER, SINGLE_LEVEL};
 use crate::check::{Conclusion, Evidence, Trial};
@@ -16,15 +16,14 @@ pub(crate) struct Mean {
     pub name: String,
     /// Mean of the replicates.
     pub mean: f64,
-    /// Its standard error, from their spread.
+    /// Its standard error.
     pub sigma: f64,
     /// Two-sided probability of a mean as far from 0.
     pub p: f64,
-    dof: u64,
 }
 
 impl Mean {
-    /// Judges replicates; `None` for fewer than two.
+    /// Judges replicates by their own spread, with Student's law; `None` for fewer than two.
     pub fn of(name: impl Into<String>, replicates: &[f64]) -> Option<Self> {
         let found = Variance::of(replicates).ok()?;
         let is_exact = found.variance == 0.0 && found.mean == 0.0;
@@ -33,28 +32,32 @@ impl Mean {
             mean: found.mean,
             sigma: (found.variance / replicates.len() as f64).sqrt(),
             p: if is_exact { 1.0 } else { found.mean_p(0.0) },
-            dof: found.dof,
         })
-    }
-
-    /// The smallest mean that would have been seen as one of `tests`.
-    fn detectable(&self, tests: usize) -> f64 {
-        let level = SINGLE_LEVEL / tests as f64;
-        let (mut low, mut high) = (0.0, 1.0);
-        while beta::student_two_sided_p(high, self.dof) > level {
-            (low, high) = (high, 2.0 * high);
-        }
-        while high - low > 1e-6 * high {
-            let middle = 0.5 * (low + high);
-            if beta::student_two_sided_p(middle, self.dof) > level { low = middle } else { high = middle }
-        }
-        (high + normal::quantile(POWER)) * self.sigma
     }
 }
 
-/// A trial that rests on the worst of several means, all in units of one effect.
+/// The smallest mean of so many replicates that would have been seen, wherever it were, by Student's law.
+pub(crate) fn detectable(means: &[Mean], replicates: usize) -> Option<f64> {
+    let dof = (replicates as u64).checked_sub(1).filter(|&dof| dof > 0)?;
+    let sigma = means.iter().map(|mean| mean.sigma).reduce(f64::max)?;
+    let level = SINGLE_LEVEL / means.len() as f64;
+    let (mut low, mut high) = (0.0, 1.0);
+    while beta::student_two_sided_p(high, dof) > level {
+        (low, high) = (high, 2.0 * high);
+    }
+    while high - low > 1e-6 * high {
+        let middle = 0.5 * (low + high);
+        if beta::student_two_sided_p(middle, dof) > level { low = middle } else { high = middle }
+    }
+    Some((high + normal::quantile(POWER)) * sigma)
+}
+
+/// A trial that rests on the worst of several means, all in units of one effect and judged by one law, of which
+/// `detectable` would have been seen.
 pub(crate) fn worst_of(
     means: &[Mean],
+    law: &str,
+    detectable: Option<f64>,
     n: u64,
     effect_name: &'static str,
     seen: impl Fn(&Mean) -> String,
@@ -66,11 +69,11 @@ pub(crate) fn worst_of(
     Trial {
         conclusion: Conclusion::Probability((worst.p * means.len() as f64).min(1.0)),
         statistic: Some(worst.mean / worst.sigma),
-        statistic_name: format!("Student's t, {} dof, worst of {}", worst.dof, means.len()),
+        statistic_name: format!("{law}, worst of {}", means.len()),
         n,
         effect: means.iter().map(|mean| mean.mean.abs()).reduce(f64::max),
         effect_name,
-        detectable: means.iter().map(|mean| mean.detectable(means.len())).reduce(f64::max),
+        detectable,
         seen: seen(worst),
         evidence,
     }

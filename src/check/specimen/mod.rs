@@ -20,18 +20,20 @@ pub mod matrix;
 mod octave;
 mod pattern;
 mod port;
+mod relation;
 mod repair;
 
 pub use defect::Specimen;
 pub use ideal::{Ideal, ideal};
 
 /// The specimens, family by family.
-const FAMILIES: [&[Specimen]; 12] = [
+const FAMILIES: [&[Specimen]; 13] = [
     input::FAMILY,
     derivative::FAMILY,
     octave::FAMILY,
     cells::FAMILY,
     hash::FAMILY,
+    relation::FAMILY,
     pattern::FAMILY,
     join::FAMILY,
     cdf::FAMILY,

@@ -1,0 +1,107 @@
+//! Cells that are tied to others: every value is uniform, and neighbours look independent.
+
+use super::defect::Specimen;
+use super::port::{Port, SOUND, ideal_hash};
+use crate::threshold::cdf;
+
+/// Listing 1 with another hash of indices and octave.
+const fn hashed_by(hash: fn([f64; 3], i32) -> f64) -> Port {
+    Port { hash, ..SOUND }
+}
+
+/// A part of the ideal source of two of the coordinates.
+fn of_two(first: f64, second: f64, octave: i32) -> f64 {
+    ideal_hash([first, second, 0.0], octave)
+}
+
+/// A power modulo 2^31.
+fn power(base: u64, mut exponent: u64) -> u64 {
+    let (mut power, mut square) = (1, base);
+    while exponent > 0 {
+        if exponent & 1 == 1 {
+            power = power * square % (1 << 31);
+        }
+        square = square * square % (1 << 31);
+        exponent >>= 1;
+    }
+    power
+}
+
+pub(super) const FAMILY: &[Specimen] = &[
+    Specimen {
+        name: "period-of-37",
+        defect: "indices are reduced modulo 37 before they are hashed, so the noise is a tile of 37 cells",
+        mend: "hash whole indices",
+        claim: "hash.lags",
+        subject: || {
+            hashed_by(|index, octave| ideal_hash(index.map(|c| c.rem_euclid(37.0)), octave)).subject()
+        },
+    },
+    Specimen {
+        name: "period-of-289-along-z",
+        defect: "z is reduced modulo 289, as the permutation polynomials of shaders do",
+        mend: "hash whole indices",
+        claim: "hash.lags",
+        subject: || hashed_by(|[x, y, z], octave| ideal_hash([x, y, z.rem_euclid(289.0)], octave)).subject(),
+    },
+    Specimen {
+        name: "antithetic-at-five",
+        defect: "every cell whose x has an odd fifth holds 1 - h for the hash h of the cell five behind it",
+        mend: "hash every cell by itself",
+        claim: "hash.lags",
+        subject: || {
+            hashed_by(|[x, y, z], octave| {
+                if (x / 5.0).floor().rem_euclid(2.0) == 1.0 {
+                    1.0 - ideal_hash([x - 5.0, y, z], octave)
+                } else {
+                    ideal_hash([x, y, z], octave)
+                }
+            })
+            .subject()
+        },
+    },
+    Specimen {
+        name: "mixed-at-three",
+        defect: "a twelfth of each hash is that of the cell three further along x, as a blur leaves it",
+        mend: "hash every cell by itself",
+        claim: "hash.lags",
+        subject: || {
+            hashed_by(|[x, y, z], octave| {
+                let share = 0.08;
+                let mixed = (1.0 - share) * ideal_hash([x, y, z], octave)
+                    + share * ideal_hash([x + 3.0, y, z], octave);
+                cdf::cdf(mixed, share)
+            })
+            .subject()
+        },
+    },
+    Specimen {
+        name: "linear-recurrence",
+        defect: "along x the hash is the generator RANDU: three cells in a row satisfy a linear relation, any two look \
+                 independent",
+        mend: "use a hash that mixes all bits, as murmur3 or pcg4d",
+        claim: "hash.triples",
+        subject: || {
+            hashed_by(|[x, y, z], octave| {
+                let start = 2 * (ideal_hash([0.0, y, z], octave) * f64::from(1_u32 << 30)) as u64 + 1;
+                // The multiplier has the order 2^29.
+                let word = power(65_539, x.rem_euclid(f64::from(1_u32 << 29)) as u64) * start % (1 << 31);
+                word as f64 / f64::from(1_u32 << 31)
+            })
+            .subject()
+        },
+    },
+    Specimen {
+        name: "sum-of-two-hashes",
+        defect: "a hash of x and z and one of y and z are added modulo 1: three corners of a square tell the fourth",
+        mend: "hash all three coordinates together",
+        claim: "hash.squares",
+        subject: || {
+            hashed_by(|[x, y, z], octave| {
+                let sum = of_two(x, z, octave) + of_two(z, y, octave + 100);
+                sum - sum.floor()
+            })
+            .subject()
+        },
+    },
+];
