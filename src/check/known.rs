@@ -229,6 +229,7 @@ pub const OF_THE_LISTINGS: &[Known] = &[
         "hash.lags",
         LISTINGS,
         F32,
+        RestsOn::SineHash,
         "hash3D repeats: 3550 cells along z are 113 half turns of its outer sine and 14 690 of its inner one, and in f32 \
                  cells there add up to 1 more often than they should",
     ),
