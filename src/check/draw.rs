@@ -36,6 +36,17 @@ impl Budget {
     }
 }
 
+/// How far a threshold is asked to hold.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Reach {
+    /// In the whole domain.
+    #[default]
+    Whole,
+    /// Where the listings hold as they stand: derivatives above zero along every axis, and cells whose indices their sines tell
+    /// apart, below 2^19.
+    Listings,
+}
+
 /// What fixes the inputs of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Draw {
@@ -45,6 +56,8 @@ pub struct Draw {
     pub budget: Budget,
     /// 0 for the first try; a claim that is suspect is tried again in rounds 1 and 2, with inputs of their own.
     pub round: u32,
+    /// How far a threshold is asked to hold.
+    pub reach: Reach,
 }
 
 impl Draw {
@@ -89,10 +102,10 @@ mod tests {
 
     #[test]
     fn samples_grow_with_budget_and_round() {
-        let draw = |budget, round| Draw { seed: 0, budget, round }.samples(1000);
+        let draw = |budget, round| Draw { budget, round, ..Draw::default() }.samples(1000);
         assert_eq!(Budget::ALL.map(|budget| draw(budget, 0)), [250, 1000, 16_000]);
         assert_eq!([0, 1, 2].map(|round| draw(Budget::Ci, round)), [1000, 4000, 16_000]);
-        let most = Draw { seed: 0, budget: Budget::Nightly, round: 2 }.samples(1 << 20);
+        let most = Draw { budget: Budget::Nightly, round: 2, ..Draw::default() }.samples(1 << 20);
         assert_eq!(most, SAMPLES_LIMIT);
         assert_eq!(Draw { budget: Budget::Quick, ..Draw::default() }.samples_at_least(1000), 1000);
     }

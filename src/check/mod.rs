@@ -26,6 +26,7 @@ pub mod compare;
 #[doc(hidden)]
 pub mod coordinates;
 pub mod diagnosis;
+pub mod domain;
 #[doc(hidden)]
 pub mod draw;
 pub mod evidence;
@@ -60,7 +61,8 @@ pub mod trial;
 
 pub use claim::{Claim, Promise};
 pub use compare::{Agreement, Comparison, compare};
-pub use draw::{Budget, Draw};
+pub use domain::Domain;
+pub use draw::{Budget, Draw, Reach};
 pub use evidence::{ComparedShare, Evidence, NamedHistogram};
 pub use known::Known;
 pub use outcome::{LikeTheListing, Outcome, Standing, Verdict, worst};

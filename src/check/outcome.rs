@@ -1,5 +1,6 @@
 //! What came out of one claim tried on one subject.
 
+use super::domain::Domain;
 use super::evidence::Evidence;
 use super::subject::Precision;
 use crate::threshold::two_scale::Variant;
@@ -132,6 +133,8 @@ pub struct Outcome {
     pub effect_name: &'static str,
     /// The smallest effect that the claim would have seen with power 0.999.
     pub detectable: Option<f64>,
+    /// What of all footprints, frames and layers was sampled, in the last round; nothing where the subject could not be run.
+    pub domain: Domain,
     /// Seed of the run.
     pub seed: u64,
     /// What was seen, in words; absent where the claim is consistent.
@@ -210,6 +213,9 @@ impl fmt::Display for Outcome {
         if let Some(detectable) = self.detectable {
             write!(f, "; {detectable:.4e} would have been seen")?;
         }
+        if self.domain.n > 0 {
+            write!(f, "\n  sampled: {}", self.domain)?;
+        }
         Ok(())
     }
 }
@@ -238,6 +244,7 @@ pub(crate) mod tests {
             effect: None,
             effect_name: "",
             detectable: None,
+            domain: Domain::default(),
             seed: 0,
             seen: None,
             known: None,

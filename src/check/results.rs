@@ -1,6 +1,7 @@
 //! The answers of one run about one subject, as somebody's own test suite wants them.
 
 use super::diagnosis;
+use super::draw::Reach;
 use super::known::{self, OF_THE_LISTINGS};
 use super::outcome::{self, Outcome, Standing};
 use super::tolerance::GUESSES;
@@ -20,6 +21,15 @@ pub enum Suite {
 impl Suite {
     /// Both suites.
     pub const ALL: [Self; 2] = [Self::All, Self::Paper];
+
+    /// How far it asks a threshold to hold.
+    #[must_use]
+    pub const fn reach(self) -> Reach {
+        match self {
+            Self::All => Reach::Whole,
+            Self::Paper => Reach::Listings,
+        }
+    }
 
     /// The word by which a user asks for it.
     #[must_use]

@@ -22,8 +22,18 @@ pub fn interpreted(
     let program = shader.program()?;
     let shader = shader.clone();
     let (its_program, its_shader) = (program.clone(), shader.clone());
+    let has_scale = shader.hash_scale().is_some();
+    let (same_program, same_shader) = (program.clone(), shader.clone());
     let thresholds = move |fragments: &[Fragment]| shader.thresholds(&program, fragments, &model);
-    Ok(batched(name, variant, thresholds).with_remarks(move || its_shader.remarks(&its_program)))
+    let subject = batched(name, variant, thresholds).with_remarks(move || its_shader.remarks(&its_program));
+    if !has_scale {
+        return Ok(subject);
+    }
+    // The noise size is an argument of the program, which stays what it is.
+    Ok(subject.with_hash_scales(move |times, fragments| {
+        let found = same_shader.rescaled(times).thresholds(&same_program, fragments, &model);
+        widened(found)
+    }))
 }
 
 /// Puts a shader on trial on a device.
@@ -39,7 +49,15 @@ pub fn on_device(
     variant: Variant,
 ) -> Result<Subject<'static>, ShaderError> {
     let evaluator = crate::shader::gpu::Evaluator::new(device, shader)?;
-    Ok(batched(name, variant, move |fragments: &[Fragment]| evaluator.thresholds(fragments)))
+    let subject = batched(name, variant, move |fragments: &[Fragment]| evaluator.thresholds(fragments));
+    if shader.hash_scale().is_none() {
+        return Ok(subject);
+    }
+    let (shader, device) = (shader.clone(), device.clone());
+    Ok(subject.with_hash_scales(move |times, fragments| {
+        let evaluator = crate::shader::gpu::Evaluator::new(&device, &shader.rescaled(times));
+        widened(evaluator.map_err(|error| error.to_string())?.thresholds(fragments))
+    }))
 }
 
 fn batched<E: core::fmt::Display>(
@@ -47,8 +65,9 @@ fn batched<E: core::fmt::Display>(
     variant: Variant,
     thresholds: impl Fn(&[Fragment]) -> Result<Vec<f32>, E> + Send + Sync + 'static,
 ) -> Subject<'static> {
-    Subject::batched(name, Precision::F32, variant, move |fragments| {
-        let found = thresholds(fragments).map_err(|error| error.to_string())?;
-        Ok(found.into_iter().map(f64::from).collect())
-    })
+    Subject::batched(name, Precision::F32, variant, move |fragments| widened(thresholds(fragments)))
+}
+
+fn widened<E: core::fmt::Display>(found: Result<Vec<f32>, E>) -> Result<Vec<f64>, String> {
+    Ok(found.map_err(|error| error.to_string())?.into_iter().map(f64::from).collect())
 }

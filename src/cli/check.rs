@@ -40,7 +40,8 @@ pub fn run(args: &CheckArgs) -> Result<Ending, Failure> {
     for word in typed.iter().filter(|word| subjects::is_in_rust(word, args.shader.on)) {
         output::remark("note", format_args!("{word} runs on the CPU, in Rust"));
     }
-    let draw = Draw { seed: args.seed, budget: args.budget, round: 0 };
+    let reach = args.suite.reach();
+    let draw = Draw { seed: args.seed, budget: args.budget, reach, ..Draw::default() };
     let mut outcomes = tried(&claims, &subjects, &draw);
     for (subject, remark) in subjects.iter().flat_map(|s| s.remarks().into_iter().map(move |r| (s, r))) {
         output::remark("note", format_args!("{}: {remark}", subject.name));

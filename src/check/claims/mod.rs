@@ -8,6 +8,7 @@ pub mod coordinates;
 pub mod coverage;
 pub mod degenerate;
 pub mod determinism;
+pub mod domain;
 pub mod exact;
 pub mod flips;
 pub mod frames;
@@ -87,4 +88,9 @@ pub const ALL: &[Claim] = &[
     cells::MIRROR,
     atoms::ZERO,
     atoms::ENDS,
+    domain::UNIFORM,
+    domain::NEIGHBOURS,
+    domain::LAYERS,
+    domain::CHANGES,
+    domain::CONTINUITY,
 ];

@@ -2,6 +2,7 @@
 
 pub(crate) mod block;
 pub mod cell;
+pub(crate) mod everywhere;
 pub mod motion;
 pub mod patch;
 pub mod sample;

@@ -1,7 +1,7 @@
 //! The parameters that a user's function may have, and where their values come from.
 
 use super::error::Fault;
-use super::setting::{Constant, type_name};
+use super::setting::{Constant, Value, type_name};
 use naga::{Function, Handle, Module, TypeInner};
 use std::collections::BTreeMap;
 
@@ -26,6 +26,18 @@ pub enum Input {
     Layer,
     /// The same in every fragment: `hash_scale`, and every parameter of another name.
     Constant(Constant),
+}
+
+impl Input {
+    /// Returns the value of a parameter that is one number and the same in every fragment.
+    #[must_use]
+    pub fn as_f32(self) -> Option<f32> {
+        let Self::Constant(constant) = self else { return None };
+        match constant.components() {
+            &[Value::F32(value)] => Some(value),
+            _ => None,
+        }
+    }
 }
 
 /// A parameter of the function and the source of its value.
