@@ -85,6 +85,15 @@ impl Standing {
     }
 }
 
+/// How a rejection compares with that of the paper's own listing by the same claim.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LikeTheListing {
+    /// Whether it is the same failure: of the same effect, no larger, and for a reason that is true of the subject.
+    pub is_like: bool,
+    /// The two sizes, or what is different.
+    pub words: String,
+}
+
 /// One claim tried on one subject: a line of a report.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
@@ -132,6 +141,8 @@ pub struct Outcome {
     pub seen: Option<String>,
     /// Why a rejection does not surprise, where a list of known findings names it ([`known::mark`](super::known::mark)).
     pub known: Option<Cow<'static, str>>,
+    /// How a rejection compares with that of the paper's listing, where that is known to be rejected, too.
+    pub listing: Option<LikeTheListing>,
     /// What was seen, to be drawn.
     pub evidence: Evidence,
 }
@@ -237,6 +248,7 @@ pub(crate) mod tests {
             seed: 0,
             seen: None,
             known: None,
+            listing: None,
             evidence: Evidence::None,
         }
     }

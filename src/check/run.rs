@@ -2,6 +2,7 @@
 
 use super::claim::Claim;
 use super::claims;
+use super::known::compare_with_the_listing;
 use super::results::{Results, Suite};
 use super::tolerance::FAMILY_LEVEL;
 use super::trial::{Attempt, Conclusion, Trial};
@@ -83,7 +84,11 @@ pub fn run_claims(
         }
         open = suspect;
     }
-    outcomes.into_iter().flatten().collect()
+    let mut outcomes: Vec<Outcome> = outcomes.into_iter().flatten().collect();
+    for (subject, outcomes) in subjects.iter().zip(outcomes.chunks_mut(claims.len().max(1))) {
+        compare_with_the_listing(subject, outcomes, draw.budget);
+    }
+    outcomes
 }
 
 /// Holds one trial, and tells what it sampled.
@@ -165,6 +170,7 @@ fn outcome(
         seed: draw.seed,
         seen: (verdict != Verdict::Consistent).then_some(trial.seen),
         known: None,
+        listing: None,
         evidence: trial.evidence,
     }
 }

@@ -280,12 +280,23 @@ impl<'a> Subject<'a> {
         asked.unwrap_or_default()
     }
 
+    /// Asks an observed subject for what is no sample of a claim.
+    pub(crate) fn unnoticed<T>(&self, ask: impl FnOnce() -> T) -> T {
+        let before = self.domain();
+        let answer = ask();
+        if let Some(asked) = &self.asked {
+            *asked.lock().unwrap_or_else(PoisonError::into_inner) = before;
+        }
+        answer
+    }
+
     fn note<F: Copy + Into<Fragment>>(&self, fragments: &[F]) {
         if let Some(asked) = &self.asked {
             let mut domain = asked.lock().unwrap_or_else(PoisonError::into_inner);
             fragments.iter().for_each(|&fragment| domain.add(&fragment.into(), self.hash_scale));
         }
     }
+
     /// Adds what the subject has to say of itself when it has run ([`Subject::remarks`]).
     #[must_use]
     pub fn with_remarks(self, remarks: impl Fn() -> Vec<String> + Send + Sync + 'a) -> Self {

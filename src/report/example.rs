@@ -28,6 +28,7 @@ pub fn consistent() -> Outcome {
         seed: 18_446_744_073_709_551_615,
         seen: None,
         known: None,
+        listing: None,
         rounds: 1,
         evidence: Evidence::Histograms(vec![NamedHistogram {
             name: "all".to_owned(),

@@ -168,7 +168,7 @@ fn stratified(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
         }
     }
     let first = first.map_or(String::new(), |(point, from)| {
-        let [shown] = shrunk(&[point], subject.precision, |candidates| {
+        let [shown] = shrunk(subject, &[point], |candidates| {
             let candidates = candidates.as_flattened();
             let found = errors(candidates, from).unwrap_or_else(|_| vec![0.0; candidates.len()]);
             found.into_iter().map(|error| error > STRATUM_ROUNDING).collect()
