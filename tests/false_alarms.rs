@@ -1,6 +1,6 @@
 //! Sound thresholds that are stored in few bits are sound.
 
-use hashed_alpha::check::{Budget, Draw, Standing, Subject, claims, run_claims};
+use hashed_alpha::check::{Budget, Draw, Precision, Standing, Subject, claims, run_claims};
 use hashed_alpha::threshold::footprint::Footprint;
 use hashed_alpha::threshold::robust::Robust;
 use hashed_alpha::threshold::two_scale::Variant;
@@ -10,9 +10,11 @@ const POLICY: &str = "hash.values";
 
 fn quantised(variant: Variant, stored: fn(f32) -> f32) -> Subject<'static> {
     let robust = Robust::new(variant);
-    let mut subject = Subject::of_f32("quantised", variant, move |at: &Footprint<f32>| {
-        robust.threshold(at).map_or(f32::NAN, stored)
-    });
+    let threshold = move |at: &Footprint<f64>| {
+        let found = robust.threshold::<f32>(&at.cast()).ok()?;
+        Some(f64::from(stored(found)))
+    };
+    let mut subject = Subject::new("quantised", Precision::F32, variant, threshold);
     (subject.join, subject.nested_phase) = (robust.join, true);
     subject
 }

@@ -55,7 +55,9 @@ fn no_claim_looks_at_one_pixel_only() {
 #[test]
 fn static_thresholds_are_asked_in_every_frame_of_the_list() {
     let frames: BTreeSet<u32> = asked("frames.static").iter().map(|at| at.frame).collect();
-    assert_eq!(frames, BTreeSet::from([0, 1, 2, 7, 1024, u32::MAX]));
+    // Those of the list, the first 64, and nearly as many at random.
+    assert!(frames.is_superset(&BTreeSet::from([1024, u32::MAX])) && frames.is_superset(&(0..64).collect()));
+    assert!(frames.len() >= 100, "{}", frames.len());
     let frames: BTreeSet<u32> = asked("frames.serial").iter().map(|at| at.frame).collect();
     assert_eq!(frames, BTreeSet::from([0, 1, 2, 5, 16]));
 }

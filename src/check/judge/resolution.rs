@@ -29,7 +29,8 @@ impl Resolution {
         self.values.dedup();
         let mut steps = [f64::INFINITY; BINADES];
         for pair in self.values.windows(2) {
-            let step = &mut steps[binade(pair[1])];
+            // The step up to a power of two is one of the binade below.
+            let step = &mut steps[binade(pair[0])];
             *step = step.min(pair[1] - pair[0]);
         }
         let steps = steps.map(|step| if step <= COARSEST { step } else { 0.0 });
