@@ -70,7 +70,7 @@ fn about_others(subject: &Subject<'_>) -> Vec<&'static str> {
 
 /// The p-values of the first round of one run; those of a rejection, and of what is no number, in words.
 fn battery(run: u64) -> Result<Vec<(&'static str, f64)>, String> {
-    let (subject, draw) = (subject(run), Draw { seed: run, budget: Budget::Quick, round: 0 });
+    let (subject, draw) = (subject(run), Draw { seed: run, budget: Budget::Quick, ..Draw::default() });
     let mut found = Vec::new();
     let about_others = about_others(&subject);
     for claim in claims::ALL.iter().filter(|claim| claim.expected == Verdict::Consistent) {

@@ -482,6 +482,67 @@ fn a_row_of_a_finding_is_a_row_of_eval() {
 }
 
 #[test]
+fn a_hash_grows_until_it_fails_and_a_run_goes_on_where_it_ended() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("hashes.wgsl");
+    // The last step of MurmurHash3 over a sum, of which the upper 16 bits are kept.
+    let text = "
+fn finished(k: u32) -> u32 {
+    var h = k;
+    h ^= h >> 16u;
+    h *= 0x85ebca6bu;
+    h ^= h >> 13u;
+    h *= 0xc2b2ae35u;
+    return h ^ (h >> 16u);
+}
+fn summed(v: vec4u) -> u32 {
+    return finished(v.x * 0x9e3779b1u + v.y * 0x85ebca77u + v.z * 0xc2b2ae3du + v.w * 0x27d4eb2fu) & 0xffff0000u;
+}
+fn threshold() -> f32 { return 0.5; }";
+    std::fs::write(&file, text).unwrap();
+    let file = format!("{}#summed", file.display());
+    let out = folder.path().join("out").display().to_string();
+    let grown = |doublings: &str, more: &[&str]| {
+        let base = ["check", &file, "--until-failure", "--budget", "quick", "--doublings", doublings];
+        let claims = [
+            "--only",
+            "hash.values",
+            "--only",
+            "hash.differences",
+            "--only",
+            "cells.origin",
+            "--only",
+            "range",
+        ];
+        run(&[&base[..], &claims[..], &["--out", &out], more].concat(), "")
+    };
+    let first = grown("1", &[]);
+    let text = String::from_utf8_lossy(&first.stdout);
+    assert_eq!(first.status.code(), Some(1), "{text}{}", String::from_utf8_lossy(&first.stderr));
+    let line = |claim: &str| text.lines().find(|line| line.contains(claim)).unwrap_or_default().to_owned();
+    assert!(line("hash.values").starts_with("fails "), "{text}");
+    assert!(
+        line("hash.differences").starts_with("holds ") && line("hash.differences").contains(">= 17.0"),
+        "{text}"
+    );
+    assert!(!text.contains("range") && text.contains("3 say nothing about their subject"), "{text}");
+    assert!(
+        std::fs::read_to_string(folder.path().join("out/growth.svg")).unwrap().contains("hash.differences")
+    );
+    // The same command has nothing to do, one that goes further begins where it ended.
+    let again = grown("1", &["--json"]);
+    assert!(String::from_utf8_lossy(&again.stderr).contains("goes on from the "));
+    let json = String::from_utf8_lossy(&again.stdout).into_owned();
+    assert!(json.lines().count() == 6 && json.contains("\"end\":\"as_far_as_asked\""), "{json}");
+    let further = grown("2", &[]);
+    assert!(String::from_utf8_lossy(&further.stdout).contains(">= 18.0"));
+    assert_fails(&grown("2", &["--seed", "1"]), "", "it is of another seed: 0, and not 1; remove it");
+    assert_fails(&run(&["check", "hash:mm5", "--no-report"], ""), "", "Did you mean `mm4`?");
+    assert_fails(&run(&["check", "--hours", "1"], ""), "", "--until-failure");
+    assert_fails(&run(&["check", "--until-failure", "--hours", "-1"], ""), "", "");
+}
+
+#[test]
 fn check_finds_mistakes_before_it_starts() {
     assert_fails(&run(&["check", "papers"], ""), "", "unknown subject `papers`; known are paper:isotropic, ");
     let folder = tempfile::tempdir().unwrap();

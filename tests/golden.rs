@@ -8,7 +8,7 @@ use hashed_alpha::check::evidence::{ComparedShare, Evidence};
 use hashed_alpha::check::specimen::{self, ideal};
 use hashed_alpha::check::subject::Precision;
 use hashed_alpha::check::{
-    Budget, Comparison, Draw, Outcome, Subject, claims, compare, coordinates, diagnosis, run_claims,
+    Budget, Comparison, Draw, Outcome, Reach, Subject, claims, compare, coordinates, diagnosis, run_claims,
 };
 use hashed_alpha::threshold::robust::Join;
 use hashed_alpha::threshold::two_scale::Variant;
@@ -17,7 +17,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 /// Not the draw of the kill matrix.
-const DRAW: Draw = Draw { seed: 7, budget: Budget::Quick, round: 0 };
+const DRAW: Draw = Draw { seed: 7, budget: Budget::Quick, round: 0, doublings: 0, reach: Reach::Whole };
 
 fn path() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden/battery.txt")

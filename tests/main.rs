@@ -12,6 +12,7 @@ mod calibration;
 mod compare;
 mod constants;
 mod coordinates;
+mod domain;
 mod emulated;
 mod exhaustive;
 mod extension_claims;

@@ -26,9 +26,11 @@ pub mod compare;
 #[doc(hidden)]
 pub mod coordinates;
 pub mod diagnosis;
+pub mod domain;
 #[doc(hidden)]
 pub mod draw;
 pub mod evidence;
+pub mod growth;
 #[doc(hidden)]
 pub mod input;
 #[doc(hidden)]
@@ -41,12 +43,16 @@ pub mod parity;
 #[doc(hidden)]
 pub mod predict;
 #[doc(hidden)]
+pub mod rests_on;
+#[doc(hidden)]
 pub mod results;
 #[doc(hidden)]
 pub mod run;
 #[cfg(feature = "shader")]
 pub mod shaders;
 mod shrink;
+#[doc(hidden)]
+pub mod sizes;
 pub mod specimen;
 pub mod subject;
 #[doc(hidden)]
@@ -56,10 +62,12 @@ pub mod trial;
 
 pub use claim::{Claim, Promise};
 pub use compare::{Agreement, Comparison, compare};
-pub use draw::{Budget, Draw};
+pub use domain::Domain;
+pub use draw::{Budget, Draw, Reach};
 pub use evidence::{ComparedShare, Evidence, NamedHistogram};
 pub use known::Known;
-pub use outcome::{Outcome, Standing, Verdict, worst};
+pub use outcome::{LikeTheListing, Outcome, Standing, Verdict, worst};
+pub use rests_on::RestsOn;
 pub use results::{Results, Suite};
 pub use run::{run, run_claims};
 pub use subject::{Precision, Subject};

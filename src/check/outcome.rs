@@ -1,5 +1,6 @@
 //! What came out of one claim tried on one subject.
 
+use super::domain::Domain;
 use super::evidence::Evidence;
 use super::subject::Precision;
 use crate::threshold::two_scale::Variant;
@@ -84,6 +85,15 @@ impl Standing {
     }
 }
 
+/// How a rejection compares with that of the paper's own listing by the same claim.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LikeTheListing {
+    /// Whether it is the same failure: of the same effect, no larger, and for a reason that is true of the subject.
+    pub is_like: bool,
+    /// The two sizes, or what is different.
+    pub words: String,
+}
+
 /// One claim tried on one subject: a line of a report.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
@@ -123,12 +133,16 @@ pub struct Outcome {
     pub effect_name: &'static str,
     /// The smallest effect that the claim would have seen with power 0.999.
     pub detectable: Option<f64>,
+    /// What of all footprints, frames and layers was sampled, in the last round; nothing where the subject could not be run.
+    pub domain: Domain,
     /// Seed of the run.
     pub seed: u64,
     /// What was seen, in words; absent where the claim is consistent.
     pub seen: Option<String>,
     /// Why a rejection does not surprise, where a list of known findings names it ([`known::mark`](super::known::mark)).
     pub known: Option<Cow<'static, str>>,
+    /// How a rejection compares with that of the paper's listing, where that is known to be rejected, too.
+    pub listing: Option<LikeTheListing>,
     /// What was seen, to be drawn.
     pub evidence: Evidence,
 }
@@ -199,6 +213,9 @@ impl fmt::Display for Outcome {
         if let Some(detectable) = self.detectable {
             write!(f, "; {detectable:.4e} would have been seen")?;
         }
+        if self.domain.n > 0 {
+            write!(f, "\n  sampled: {}", self.domain)?;
+        }
         Ok(())
     }
 }
@@ -227,9 +244,11 @@ pub(crate) mod tests {
             effect: None,
             effect_name: "",
             detectable: None,
+            domain: Domain::default(),
             seed: 0,
             seen: None,
             known: None,
+            listing: None,
             evidence: Evidence::None,
         }
     }

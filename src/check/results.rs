@@ -1,6 +1,7 @@
 //! The answers of one run about one subject, as somebody's own test suite wants them.
 
 use super::diagnosis;
+use super::draw::Reach;
 use super::known::{self, OF_THE_LISTINGS};
 use super::outcome::{self, Outcome, Standing};
 use super::tolerance::GUESSES;
@@ -12,14 +13,23 @@ pub enum Suite {
     /// Every claim, the hard cases among them: what a threshold should do.
     #[default]
     All,
-    /// As good as the paper: a rejection counts unless the paper's own listing is known to fail there too
-    /// ([`known`](super::known)).
+    /// As good as the paper: a rejection counts unless the paper's own listing is known to fail there too, by as much and for a
+    /// reason that is true of the subject ([`known`](super::known)).
     Paper,
 }
 
 impl Suite {
     /// Both suites.
     pub const ALL: [Self; 2] = [Self::All, Self::Paper];
+
+    /// How far it asks a threshold to hold.
+    #[must_use]
+    pub const fn reach(self) -> Reach {
+        match self {
+            Self::All => Reach::Whole,
+            Self::Paper => Reach::Listings,
+        }
+    }
 
     /// The word by which a user asks for it.
     #[must_use]
@@ -106,14 +116,17 @@ impl fmt::Display for Results {
 
 #[cfg(test)]
 mod tests {
-    use super::super::outcome::Verdict;
     use super::super::outcome::tests::outcome;
+    use super::super::outcome::{LikeTheListing, Verdict};
     use super::*;
     use crate::threshold::two_scale::Variant;
 
     fn results(suite: Suite) -> Results {
-        let failed_by_the_listing =
-            Outcome { variant: Variant::Isotropic, ..outcome("range.degenerate", Verdict::Rejected) };
+        let failed_by_the_listing = Outcome {
+            variant: Variant::Isotropic,
+            listing: Some(LikeTheListing { is_like: true, words: "as much".into() }),
+            ..outcome("range.degenerate", Verdict::Rejected)
+        };
         Results::new(vec![outcome("range", Verdict::Consistent), failed_by_the_listing], suite)
     }
 

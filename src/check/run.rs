@@ -2,16 +2,21 @@
 
 use super::claim::Claim;
 use super::claims;
+use super::known::compare_with_the_listing;
 use super::results::{Results, Suite};
 use super::tolerance::FAMILY_LEVEL;
 use super::trial::{Attempt, Conclusion, Trial};
-use super::{Budget, Draw, Outcome, Subject, Verdict};
+use super::{Budget, Domain, Draw, Outcome, Subject, Verdict};
 use crate::stats::sequential::{self, Decision};
 use rayon::prelude::*;
 
 /// Corrected p-value up to which a claim is suspect and tried again with fresh inputs: one sound run in a hundred pays
 /// for a second try.
 pub const SUSPICION: f64 = 1.0e-2;
+
+/// Why a claim says nothing about a bare hash.
+const BARE_HASH: &str = "a bare hash has one cell and no more: the claim is about what a threshold makes of two cells, or about what \
+                         changes while one looks";
 
 /// Tries every claim on one subject, with seed 0.
 ///
@@ -31,7 +36,7 @@ pub const SUSPICION: f64 = 1.0e-2;
 /// ```
 #[must_use]
 pub fn run(subject: &Subject<'_>, suite: Suite, budget: Budget) -> Results {
-    let draw = Draw { budget, ..Draw::default() };
+    let draw = Draw { budget, reach: suite.reach(), ..Draw::default() };
     Results::new(run_claims(claims::ALL, core::slice::from_ref(subject), &draw, || {}), suite)
 }
 
@@ -54,7 +59,7 @@ pub fn run_claims(
     let mut open: Vec<usize> = (0..work.len()).collect();
     for round in 0..sequential::WEIGHTS.len() {
         let draw = Draw { round: round as u32, ..*draw };
-        let trials: Vec<Trial> = open
+        let trials: Vec<(Trial, Domain)> = open
             .par_iter()
             .with_max_len(1)
             .map(|&index| {
@@ -66,24 +71,38 @@ pub fn run_claims(
                 trial
             })
             .collect();
-        let p: Vec<f64> = trials.iter().filter_map(probability).collect();
+        let p: Vec<f64> = trials.iter().filter_map(|(trial, _)| probability(trial)).collect();
         let mut judged = sequential::judge(&p, round, FAMILY_LEVEL, SUSPICION).into_iter();
         let mut suspect = Vec::new();
-        for (index, trial) in open.into_iter().zip(trials) {
+        for (index, (trial, domain)) in open.into_iter().zip(trials) {
             let judgement = probability(&trial).and_then(|_| judged.next());
             if judgement.is_some_and(|judgement| judgement.decision == Decision::Suspect) {
                 suspect.push(index);
             }
             let (subject, claim) = work[index];
-            outcomes[index] = Some(outcome(subject, claim, trial, judgement, &draw));
+            outcomes[index] = Some(outcome(subject, claim, trial, domain, judgement, &draw));
         }
         open = suspect;
     }
-    outcomes.into_iter().flatten().collect()
+    let mut outcomes: Vec<Outcome> = outcomes.into_iter().flatten().collect();
+    for (subject, outcomes) in subjects.iter().zip(outcomes.chunks_mut(claims.len().max(1))) {
+        compare_with_the_listing(subject, outcomes, draw.budget);
+    }
+    outcomes
+}
+
+/// Holds one trial, and tells what it sampled.
+fn tried(subject: &Subject<'_>, claim: &Claim, draw: &Draw) -> (Trial, Domain) {
+    let subject = subject.observed();
+    let trial = held(&subject, claim, draw);
+    (trial, subject.domain())
 }
 
 /// Holds one trial; a subject that could not be run is not asked again.
-fn tried(subject: &Subject<'_>, claim: &Claim, draw: &Draw) -> Trial {
+pub(super) fn held(subject: &Subject<'_>, claim: &Claim, draw: &Draw) -> Trial {
+    if subject.bare_hash && claims::is_beyond_a_hash(claim.id) {
+        return Trial::without(Conclusion::NotApplicable, BARE_HASH);
+    }
     let unavailable = || subject.failure().map(|reason| Trial::without(Conclusion::Unavailable, reason));
     unavailable().unwrap_or_else(|| {
         let trial: Attempt<Trial> = (claim.run)(subject, draw);
@@ -105,6 +124,7 @@ fn outcome(
     subject: &Subject<'_>,
     claim: &Claim,
     mut trial: Trial,
+    domain: Domain,
     judgement: Option<sequential::Judgement>,
     draw: &Draw,
 ) -> Outcome {
@@ -146,9 +166,11 @@ fn outcome(
         effect: trial.effect,
         effect_name: trial.effect_name,
         detectable: trial.detectable,
+        domain,
         seed: draw.seed,
         seen: (verdict != Verdict::Consistent).then_some(trial.seen),
         known: None,
+        listing: None,
         evidence: trial.evidence,
     }
 }

@@ -22,8 +22,41 @@ pub fn interpreted(
     let program = shader.program()?;
     let shader = shader.clone();
     let (its_program, its_shader) = (program.clone(), shader.clone());
+    let has_scale = shader.hash_scale().is_some();
+    let (same_program, same_shader) = (program.clone(), shader.clone());
     let thresholds = move |fragments: &[Fragment]| shader.thresholds(&program, fragments, &model);
-    Ok(batched(name, variant, thresholds).with_remarks(move || its_shader.remarks(&its_program)))
+    let subject = batched(name, variant, thresholds).with_remarks(move || its_shader.remarks(&its_program));
+    if !has_scale {
+        return Ok(subject);
+    }
+    // The noise size is an argument of the program, which stays what it is.
+    Ok(subject.with_hash_scales(move |times, fragments| {
+        let found = same_shader.rescaled(times).thresholds(&same_program, fragments, &model);
+        widened(found)
+    }))
+}
+
+/// Puts a hash in a shading language on trial in the interpreter: a function from three indices of a cell and its octave to 32
+/// bits, of which the value v becomes the threshold (v + 1/2) / 2^32. All 32 bits count, where hashes of the list keep 23.
+///
+/// # Errors
+///
+/// [`ShaderError`], with its place: something in the shader is not interpreted.
+pub fn interpreted_hash(
+    name: impl Into<String>,
+    shader: &OwnShader,
+    model: DeviceModel,
+) -> Result<Subject<'static>, ShaderError> {
+    let program = shader.program()?;
+    let shader = shader.clone();
+    let (its_program, its_shader) = (program.clone(), shader.clone());
+    let thresholds = move |fragments: &[Fragment]| {
+        let hashes = shader.hashes(&program, fragments, &model).map_err(|error| error.to_string())?;
+        Ok(hashes.into_iter().map(|word| (f64::from(word) + 0.5) / 4_294_967_296.0).collect())
+    };
+    let mut subject = Subject::batched(name, Precision::F64, Variant::Isotropic, thresholds);
+    subject.bare_hash = true;
+    Ok(subject.with_remarks(move || its_shader.remarks(&its_program)))
 }
 
 /// Puts a shader on trial on a device.
@@ -39,7 +72,15 @@ pub fn on_device(
     variant: Variant,
 ) -> Result<Subject<'static>, ShaderError> {
     let evaluator = crate::shader::gpu::Evaluator::new(device, shader)?;
-    Ok(batched(name, variant, move |fragments: &[Fragment]| evaluator.thresholds(fragments)))
+    let subject = batched(name, variant, move |fragments: &[Fragment]| evaluator.thresholds(fragments));
+    if shader.hash_scale().is_none() {
+        return Ok(subject);
+    }
+    let (shader, device) = (shader.clone(), device.clone());
+    Ok(subject.with_hash_scales(move |times, fragments| {
+        let evaluator = crate::shader::gpu::Evaluator::new(&device, &shader.rescaled(times));
+        widened(evaluator.map_err(|error| error.to_string())?.thresholds(fragments))
+    }))
 }
 
 fn batched<E: core::fmt::Display>(
@@ -47,8 +88,9 @@ fn batched<E: core::fmt::Display>(
     variant: Variant,
     thresholds: impl Fn(&[Fragment]) -> Result<Vec<f32>, E> + Send + Sync + 'static,
 ) -> Subject<'static> {
-    Subject::batched(name, Precision::F32, variant, move |fragments| {
-        let found = thresholds(fragments).map_err(|error| error.to_string())?;
-        Ok(found.into_iter().map(f64::from).collect())
-    })
+    Subject::batched(name, Precision::F32, variant, move |fragments| widened(thresholds(fragments)))
+}
+
+fn widened<E: core::fmt::Display>(found: Result<Vec<f32>, E>) -> Result<Vec<f64>, String> {
+    Ok(found.map_err(|error| error.to_string())?.into_iter().map(f64::from).collect())
 }

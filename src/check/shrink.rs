@@ -129,10 +129,18 @@ fn is_as_regular(before: &Footprint<f64>, after: &Footprint<f64>) -> bool {
 }
 
 /// Shrinks fragments as long as they fail together; numbers that are the same in the first and in another stay so. None
-/// becomes more degenerate than it is.
+/// becomes more degenerate than it is. What `fails` asks the subject for is no sample.
 pub(crate) fn shrunk<const N: usize>(
+    subject: &Subject<'_>,
     first: &[Fragment; N],
+    fails: impl Fn(&[[Fragment; N]]) -> Vec<bool>,
+) -> [Fragment; N] {
+    subject.unnoticed(|| shrunk_in(subject.precision, first, fails))
+}
+
+fn shrunk_in<const N: usize>(
     precision: Precision,
+    first: &[Fragment; N],
     fails: impl Fn(&[[Fragment; N]]) -> Vec<bool>,
 ) -> [Fragment; N] {
     let take_away: [fn(&mut Fragment); 8] = [
@@ -223,7 +231,7 @@ pub(crate) fn describe(
     fragment: &Fragment,
     is_bad: impl Fn(&Fragment, f64) -> bool,
 ) -> String {
-    let [found] = shrunk(&[*fragment], subject.precision, |candidates| {
+    let [found] = shrunk(subject, &[*fragment], |candidates| {
         let candidates = candidates.as_flattened();
         candidates.iter().zip(subject.thresholds(candidates)).map(|(at, value)| is_bad(at, value)).collect()
     });
@@ -236,7 +244,7 @@ pub(crate) fn describe_pair(
     pair: &[Fragment; 2],
     are_bad: impl Fn(&[Fragment; 2], [f64; 2]) -> bool,
 ) -> String {
-    let [first, second] = shrunk(pair, subject.precision, |candidates| {
+    let [first, second] = shrunk(subject, pair, |candidates| {
         let values = subject.thresholds(candidates.as_flattened());
         candidates.iter().zip(values.chunks_exact(2)).map(|(pair, v)| are_bad(pair, [v[0], v[1]])).collect()
     });
@@ -245,7 +253,7 @@ pub(crate) fn describe_pair(
 
 /// Writes the threshold and the row of a fragment.
 pub(crate) fn at(subject: &Subject<'_>, fragment: &Fragment) -> String {
-    let threshold = subject.threshold(*fragment).unwrap_or(f64::NAN);
+    let threshold = subject.unnoticed(|| subject.threshold(*fragment)).unwrap_or(f64::NAN);
     format!("{} at {}", number(threshold, subject.precision), row(fragment, subject.precision))
 }
 

@@ -1,5 +1,6 @@
 //! Anything that turns footprints into thresholds.
 
+use crate::check::domain::Domain;
 use crate::scene::Fragment;
 use crate::threshold::batch::{BLOCK, Batch, ColumnBuffer, Lane, Model};
 use crate::threshold::footprint::Footprint;
@@ -14,7 +15,7 @@ use core::fmt;
 use core::num::NonZeroU32;
 use glam::DVec3;
 use rayon::prelude::*;
-use std::sync::OnceLock;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 /// The arithmetic in which a subject works.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -65,6 +66,8 @@ enum Evaluation<'a> {
     AllAtOnce(AllAtOnce<'a>),
     /// In vector instructions, with the bits of one by one.
     Batch(Model),
+    /// That of another subject.
+    Of(&'a Subject<'a>),
 }
 
 /// Fewer fragments than this are evaluated one by one: a batch fills a block of [`BLOCK`] in any case.
@@ -72,6 +75,9 @@ const WORTH_A_BATCH: usize = BLOCK / 8;
 
 /// Fragments of which a thread evaluates a batch.
 const BATCH: usize = 16 * BLOCK;
+
+/// The same threshold with a noise so many times as large, for many fragments at once.
+type Rescaled<'a> = Box<dyn Fn(f64, &[Fragment]) -> Result<Vec<f64>, String> + Send + Sync + 'a>;
 
 /// What a subject has to say of itself.
 type Remarks<'a> = Box<dyn Fn() -> Vec<String> + Send + Sync + 'a>;
@@ -93,8 +99,14 @@ pub struct Subject<'a> {
     /// Over how many frames it claims to spread its thresholds (Eq. 6), beginning with stratum 0 in frame 0; 1 where a
     /// threshold stays what it is.
     pub frames: u32,
+    /// Whether it is the hash of one cell and no more: no second octave, no join, no Eq. 2. Claims about those say nothing
+    /// about it.
+    pub bare_hash: bool,
     threshold: Evaluation<'a>,
     interpolated: Option<OneByOne<'a>>,
+    rescaled: Option<Rescaled<'a>>,
+    /// What it is asked for, where somebody wants to know.
+    asked: Option<Arc<Mutex<Domain>>>,
     failure: OnceLock<String>,
     remarks: Option<Remarks<'a>>,
 }
@@ -201,10 +213,87 @@ impl<'a> Subject<'a> {
             nested_phase: false,
             hash_scale: 1.0,
             frames: 1,
+            bare_hash: false,
             threshold,
             interpolated: None,
+            rescaled: None,
+            asked: None,
             failure: OnceLock::new(),
             remarks: None,
+        }
+    }
+
+    /// Adds how the subject is at other hash scales, so that claims try it at several: the function is given a factor to the
+    /// subject's own hash scale and fragments, and returns what that of [`Subject::batched`] does.
+    ///
+    /// Without it only [`Subject::hash_scale`] is tried. The subjects of this crate have it, and shader files with a parameter
+    /// `hash_scale`.
+    #[must_use]
+    pub fn with_hash_scales(
+        self,
+        rescaled: impl Fn(f64, &[Fragment]) -> Result<Vec<f64>, String> + Send + Sync + 'a,
+    ) -> Self {
+        Self { rescaled: Some(Box::new(rescaled)), ..self }
+    }
+
+    /// Returns the same threshold with a noise of so many pixels; nothing where the subject has no such parameter.
+    #[must_use]
+    pub fn at_hash_scale(&self, hash_scale: f64) -> Option<Subject<'_>> {
+        let rescaled = match &self.threshold {
+            Evaluation::Of(subject) => subject.rescaled.as_ref()?,
+            Evaluation::OneByOne(_) | Evaluation::AllAtOnce(_) | Evaluation::Batch(_) => {
+                self.rescaled.as_ref()?
+            }
+        };
+        let thresholds = move |fragments: &[Fragment]| {
+            let found = rescaled(hash_scale / self.hash_scale, fragments);
+            found.inspect_err(|reason| {
+                self.failure.get_or_init(|| reason.clone());
+            })
+        };
+        let evaluation = Evaluation::AllAtOnce(Box::new(thresholds));
+        Some(Subject { hash_scale, ..self.like(evaluation, self.asked.clone()) })
+    }
+
+    /// A subject that claims what this one does.
+    fn like<'b>(&self, threshold: Evaluation<'b>, asked: Option<Arc<Mutex<Domain>>>) -> Subject<'b> {
+        Subject {
+            join: self.join,
+            nested_phase: self.nested_phase,
+            hash_scale: self.hash_scale,
+            frames: self.frames,
+            bare_hash: self.bare_hash,
+            asked,
+            ..Subject::evaluated_by(self.name.clone(), self.precision, self.variant, threshold)
+        }
+    }
+
+    /// Returns a view of the subject that answers as it does and keeps what it is asked for ([`Subject::domain`]).
+    pub(crate) fn observed(&self) -> Subject<'_> {
+        self.like(Evaluation::Of(self), Some(Arc::default()))
+    }
+
+    /// Returns what an observed subject was asked for so far; nothing for any other.
+    pub(crate) fn domain(&self) -> Domain {
+        let asked =
+            self.asked.as_ref().map(|asked| asked.lock().unwrap_or_else(PoisonError::into_inner).clone());
+        asked.unwrap_or_default()
+    }
+
+    /// Asks an observed subject for what is no sample of a claim.
+    pub(crate) fn unnoticed<T>(&self, ask: impl FnOnce() -> T) -> T {
+        let before = self.domain();
+        let answer = ask();
+        if let Some(asked) = &self.asked {
+            *asked.lock().unwrap_or_else(PoisonError::into_inner) = before;
+        }
+        answer
+    }
+
+    fn note<F: Copy + Into<Fragment>>(&self, fragments: &[F]) {
+        if let Some(asked) = &self.asked {
+            let mut domain = asked.lock().unwrap_or_else(PoisonError::into_inner);
+            fragments.iter().for_each(|&fragment| domain.add(&fragment.into(), self.hash_scale));
         }
     }
 
@@ -235,6 +324,10 @@ impl<'a> Subject<'a> {
             interpolated: Some(Box::new(move |fragment| Some(evaluate(&fragment.footprint).1))),
             ..Self::new(name, precision, hashed.variant, move |footprint| evaluate(footprint).0)
         }
+        .with_hash_scales(move |times, fragments| {
+            let hash_scale = hashed.hash_scale * times;
+            Ok(Self::hashed("", precision, HashedAlpha { hash_scale, ..hashed }).thresholds(fragments))
+        })
     }
 
     /// Puts a robust threshold on trial; it refuses what [`Robust::threshold`] refuses.
@@ -263,6 +356,10 @@ impl<'a> Subject<'a> {
             interpolated,
             ..Self::new(name, precision, robust.variant, move |footprint| Some(evaluate(footprint)?.0))
         }
+        .with_hash_scales(move |times, fragments| {
+            let hash_scale = robust.hash_scale * times;
+            Ok(Self::robust("", precision, Robust { hash_scale, ..robust }).thresholds(fragments))
+        })
     }
 
     /// Puts a threshold on trial whose hash was chosen by name, as [`Subject::hashed`] and [`Subject::robust`] do with the
@@ -275,7 +372,32 @@ impl<'a> Subject<'a> {
             Model::BeforeCdf(hashed) => Self { interpolated: None, ..Self::hashed(name, precision, hashed) },
             Model::Robust(robust) => Self::robust(name, precision, robust),
         };
-        Self { threshold: Evaluation::Batch(model), ..described }
+        let own = described.hash_scale;
+        let rescaled = move |times: f64, fragments: &[Fragment]| {
+            Ok(evaluated_in_batches(precision, model.with_hash_scale(own * times), fragments))
+        };
+        Self { threshold: Evaluation::Batch(model), ..described }.with_hash_scales(rescaled)
+    }
+
+    /// Puts a hash on trial alone: its threshold is the hash of [the coarse cell](scales::only_cell), wherever the footprint
+    /// lies between two octaves.
+    ///
+    /// ```
+    /// use hashed_alpha::check::{Subject, subject::Precision};
+    /// use hashed_alpha::threshold::hash::HashKind;
+    ///
+    /// assert!(Subject::of_hash("hash:mm4", Precision::F32, HashKind::Mm4).bare_hash);
+    /// ```
+    #[must_use]
+    pub fn of_hash<H>(name: impl Into<String>, precision: Precision, hash: H) -> Self
+    where
+        H: Hash<f32> + Hash<f64> + Copy + Send + 'a,
+    {
+        let value = move |footprint: &Footprint<f64>| match precision {
+            Precision::F32 => hash.hash(&scales::only_cell::<f32>(&footprint.cast())).to_f64(),
+            Precision::F64 => hash.hash(&scales::only_cell(footprint)),
+        };
+        Self { bare_hash: true, ..Self::new(name, precision, Variant::Isotropic, value) }
     }
 
     /// Spreads the thresholds over `n` frames: frame i has stratum i of the alternating order, each of width 1 / n. Eq. 6
@@ -290,27 +412,30 @@ impl<'a> Subject<'a> {
             Precision::F64 => stratified(chi, alternating(frame, n), n),
         };
         let first = |fragment: &Fragment| Fragment { frame: 0, ..*fragment };
+        let all_first = move |fragments: &[Fragment]| fragments.iter().map(first).collect::<Vec<_>>();
+        let spread_all = move |chis: Vec<f64>, fragments: &[Fragment]| -> Vec<f64> {
+            chis.into_iter().zip(fragments).map(|(chi, fragment)| spread(chi, fragment.frame)).collect()
+        };
         let threshold = match self.threshold {
             Evaluation::OneByOne(threshold) => Evaluation::OneByOne(Box::new(move |fragment| {
                 threshold(&first(fragment)).map(|chi| spread(chi, fragment.frame))
             })),
             Evaluation::AllAtOnce(thresholds) => Evaluation::AllAtOnce(Box::new(move |fragments| {
-                let mut values = thresholds(&fragments.iter().map(first).collect::<Vec<_>>())?;
-                for (value, fragment) in values.iter_mut().zip(fragments) {
-                    *value = spread(*value, fragment.frame);
-                }
-                Ok(values)
+                Ok(spread_all(thresholds(&all_first(fragments))?, fragments))
+            })),
+            Evaluation::Of(subject) => Evaluation::AllAtOnce(Box::new(move |fragments| {
+                Ok(spread_all(subject.thresholds(&all_first(fragments)), fragments))
             })),
             Evaluation::Batch(model) => Evaluation::AllAtOnce(Box::new(move |fragments| {
-                let values = evaluated_in_batches(precision, model, fragments);
-                Ok(values
-                    .into_iter()
-                    .zip(fragments)
-                    .map(|(chi, fragment)| spread(chi, fragment.frame))
-                    .collect())
+                Ok(spread_all(evaluated_in_batches(precision, model, fragments), fragments))
             })),
         };
-        Self { name: format!("{}, {n} frames", self.name), frames: n.get(), threshold, ..self }
+        let rescaled = self.rescaled.map(|rescaled| -> Rescaled<'a> {
+            Box::new(move |times, fragments| {
+                Ok(spread_all(rescaled(times, &all_first(fragments))?, fragments))
+            })
+        });
+        Self { name: format!("{}, {n} frames", self.name), frames: n.get(), threshold, rescaled, ..self }
     }
 
     /// The paper's Listings 1 and 2 to the letter, in both precisions.
@@ -345,7 +470,9 @@ impl<'a> Subject<'a> {
     #[must_use]
     pub fn threshold(&self, fragment: impl Into<Fragment>) -> Option<f64> {
         let fragment = fragment.into();
+        self.note(&[fragment]);
         match &self.threshold {
+            Evaluation::Of(subject) => subject.threshold(fragment),
             Evaluation::OneByOne(threshold) => threshold(&fragment),
             Evaluation::Batch(model) => {
                 let value = model_threshold(self.precision, model, &fragment.footprint);
@@ -362,7 +489,9 @@ impl<'a> Subject<'a> {
     /// Where the subject could not be run ([`Subject::failure`]) all are NaN.
     #[must_use]
     pub fn thresholds<F: Copy + Into<Fragment> + Sync>(&self, fragments: &[F]) -> Vec<f64> {
+        self.note(fragments);
         match &self.threshold {
+            Evaluation::Of(subject) => subject.thresholds(fragments),
             Evaluation::OneByOne(threshold) => evaluated(threshold, fragments),
             &Evaluation::Batch(model) => evaluated_in_batches(self.precision, model, fragments),
             // What has failed is not run again: it may have taken its time.
@@ -380,7 +509,8 @@ impl<'a> Subject<'a> {
     /// Returns why the subject could not be run, where that came up.
     #[must_use]
     pub fn failure(&self) -> Option<&str> {
-        self.failure.get().map(String::as_str)
+        let own = self.failure.get().map(String::as_str);
+        own.or_else(|| if let Evaluation::Of(subject) = self.threshold { subject.failure() } else { None })
     }
 
     /// Returns what the subject has to say of itself so far: nothing that is wrong, but hardly meant.
@@ -392,7 +522,13 @@ impl<'a> Subject<'a> {
     /// Evaluates the value before Eq. 2 of many fragments or footprints; `None` for a subject that has none.
     #[must_use]
     pub fn interpolated<F: Copy + Into<Fragment> + Sync>(&self, fragments: &[F]) -> Option<Vec<f64>> {
-        self.interpolated.as_ref().map(|interpolated| evaluated(interpolated, fragments))
+        self.note(fragments);
+        match &self.threshold {
+            Evaluation::Of(subject) => subject.interpolated(fragments),
+            Evaluation::OneByOne(_) | Evaluation::AllAtOnce(_) | Evaluation::Batch(_) => {
+                self.interpolated.as_ref().map(|interpolated| evaluated(interpolated, fragments))
+            }
+        }
     }
 
     /// Returns the cells that the subject claims to have at a footprint, computed in its precision.

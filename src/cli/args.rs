@@ -13,6 +13,9 @@ use hashed_alpha::threshold::robust::{Join, Repair};
 use hashed_alpha::threshold::two_scale::Variant;
 use std::path::PathBuf;
 
+/// The longest time that can be asked for, in hours: ten years.
+const MOST_HOURS: f64 = 87_660.0;
+
 const EXIT_CODES_AND_EXAMPLES: &str = "\
 Exit codes:
   0  done; every claim is consistent with what was seen
@@ -69,6 +72,9 @@ Examples:
   hashed-alpha check paper --suite paper
   hashed-alpha check paper --only stability --only range --budget quick
   hashed-alpha check paper --expect findings.toml
+  hashed-alpha check robust --until-failure --hours 0.5
+  hashed-alpha check hash:pcg3d --until-failure --out report-pcg3d
+  hashed-alpha check my.wgsl#my_hash --until-failure
 
 A file of known findings makes the exit code speak of news alone:
   [[finding]]
@@ -79,7 +85,8 @@ A file of known findings makes the exit code speak of news alone:
 pub struct CheckArgs {
     /// Subjects to try: `paper`, `robust`, or one variant of them as in `paper:isotropic`; the same on a device as in
     /// `gpu:robust`; a shader file that ends in .wgsl, .glsl, .frag, .vert, .comp, .fs, .vs or .spv, with `#NAME` behind it
-    /// for a function of it. `robust` when none is given
+    /// for a function of it; one hash alone as in `hash:mm4`, or as a shader's function from `vec4u` to `u32`. `robust` when none
+    /// is given
     #[arg(value_name = "SUBJECT")]
     pub subjects: Vec<String>,
     #[command(flatten)]
@@ -111,6 +118,16 @@ pub struct CheckArgs {
     /// TOML file of findings that are known and do not count as rejected
     #[arg(long, value_name = "FILE")]
     pub expect: Option<PathBuf>,
+    /// Double the samples of every claim until it fails, and say at which number. The verdict is valid whenever one stops; what
+    /// is known is kept in the folder of the report, and the same command goes on from there. Ctrl-C ends with what is known
+    #[arg(long, conflicts_with_all = ["suite", "expect", "no_report"])]
+    pub until_failure: bool,
+    /// End after so many hours, as in 0.5
+    #[arg(long, value_name = "H", requires = "until_failure", value_parser = hours)]
+    pub hours: Option<f64>,
+    /// Double the samples no more than K times
+    #[arg(long, value_name = "K", requires = "until_failure", value_parser = clap::value_parser!(u32).range(0..=63))]
+    pub doublings: Option<u32>,
 }
 
 /// Where a shader runs.
@@ -431,6 +448,12 @@ fn resolution(text: &str) -> Result<[u32; 2], String> {
 fn size(text: &str) -> Result<f64, &'static str> {
     let size = text.parse().ok().filter(|&size: &f64| (size as f32).is_finite() && size as f32 > 0.0);
     size.ok_or("a size of the noise is a number of pixels above 0")
+}
+
+/// Reads a time in hours.
+fn hours(text: &str) -> Result<f64, String> {
+    let hours = text.parse().ok().filter(|hours: &f64| *hours > 0.0 && *hours <= MOST_HOURS);
+    hours.ok_or_else(|| format!("a time is a number of hours above 0, up to {MOST_HOURS}"))
 }
 
 /// Reads a seed.

@@ -3,8 +3,9 @@
 use super::args::CheckArgs;
 use super::failure::Failure;
 use super::subjects::{self, Asked, Place};
-use super::{Ending, drivers, known, output, shader_files};
+use super::{Ending, drivers, growth, known, output, shader_files};
 use hashed_alpha::check::claims::{self, exact::CELLS};
+use hashed_alpha::check::growth::Plan;
 use hashed_alpha::check::known::{Known, OF_THE_LISTINGS, mark};
 use hashed_alpha::check::outcome::worst;
 use hashed_alpha::check::{self, Claim, Draw, Outcome, Standing, Subject, Suite, Verdict};
@@ -30,7 +31,7 @@ pub fn run(args: &CheckArgs) -> Result<Ending, Failure> {
     drivers::silence_for(typed, &args.shader);
     let asked = subjects::subjects(typed, &args.shader)?;
     let models = under_models(&asked);
-    let (subjects, is_file): (Vec<Subject<'_>>, Vec<bool>) =
+    let (subjects, is_file): (Vec<Subject<'static>>, Vec<bool>) =
         asked.into_iter().map(|asked| (asked.subject, asked.family.is_none())).unzip();
     let claims = chosen_claims(&args.only)?;
     let known = args.expect.as_deref().map(known::read).transpose()?.unwrap_or_default();
@@ -40,7 +41,11 @@ pub fn run(args: &CheckArgs) -> Result<Ending, Failure> {
     for word in typed.iter().filter(|word| subjects::is_in_rust(word, args.shader.on)) {
         output::remark("note", format_args!("{word} runs on the CPU, in Rust"));
     }
-    let draw = Draw { seed: args.seed, budget: args.budget, round: 0 };
+    let reach = args.suite.reach();
+    let draw = Draw { seed: args.seed, budget: args.budget, reach, ..Draw::default() };
+    if args.until_failure {
+        return growth::run(args, Plan::new(&claims, subjects, draw, args.doublings));
+    }
     let mut outcomes = tried(&claims, &subjects, &draw);
     for (subject, remark) in subjects.iter().flat_map(|s| s.remarks().into_iter().map(move |r| (s, r))) {
         output::remark("note", format_args!("{}: {remark}", subject.name));
@@ -149,7 +154,7 @@ fn tried(claims: &[Claim], subjects: &[Subject<'_>], draw: &Draw) -> Vec<Outcome
 }
 
 /// Whether ten seconds have passed since the last line; of several threads one is told so.
-fn is_due(told: &AtomicU64, seconds: u64) -> bool {
+pub fn is_due(told: &AtomicU64, seconds: u64) -> bool {
     let tens = seconds / 10;
     told.fetch_max(tens, Ordering::Relaxed) < tens
 }

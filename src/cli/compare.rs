@@ -24,7 +24,7 @@ pub fn run(args: &CompareArgs) -> Result<Ending, Failure> {
             args.first, args.second
         )));
     }
-    let draw = Draw { seed: args.seed, budget: args.budget, round: 0 };
+    let draw = Draw { seed: args.seed, budget: args.budget, ..Draw::default() };
     let mut results = output::results();
     let mut ending = Ending::Consistent;
     for [a, b] in pairs {

@@ -3,6 +3,7 @@
 use super::rows::RowError;
 use hashed_alpha::render::scene_file::read::FileError;
 use hashed_alpha::report::directory::ReportError;
+use hashed_alpha::report::growth::StateError;
 use hashed_alpha::shader::own::ShaderError;
 use std::error::Error;
 use std::io;
@@ -35,6 +36,14 @@ pub enum Failure {
     /// A scene file is wrong.
     #[error(transparent)]
     Scene(#[from] FileError),
+    /// A run cannot be continued from what an earlier one left.
+    #[error("cannot continue {place}")]
+    State {
+        /// The name of the file.
+        place: String,
+        /// Why.
+        source: StateError,
+    },
     /// Something that was typed does not have a meaning.
     #[error("{0}")]
     Usage(String),

@@ -29,11 +29,13 @@ struct Written {
     precision: Precision,
     #[serde(deserialize_with = "reason")]
     reason: String,
+    /// Size of the effect; a fifth more is no longer known.
+    size: Option<f64>,
 }
 
 impl From<Written> for Known {
-    fn from(Written { check, subject, precision, reason }: Written) -> Self {
-        Self::of_subject(check, subject, precision, reason)
+    fn from(Written { check, subject, precision, reason, size }: Written) -> Self {
+        Self::of_subject(check, subject, precision, reason).with_size(size)
     }
 }
 
@@ -105,7 +107,9 @@ reason = "all cells of one z share a bias"
         let known = parse(LIST).unwrap();
         let [check, subject, reason] =
             ["uniform.constant_z", "paper:isotropic", "all cells of one z share a bias"].map(str::to_owned);
-        assert_eq!(known, [Known::of_subject(check, subject, Precision::F32, reason)]);
+        let expected = Known::of_subject(check, subject, Precision::F32, reason);
+        assert_eq!(known, [expected.clone()]);
+        assert_eq!(parse(&format!("{LIST}size = 2e-3")).unwrap(), [expected.with_size(Some(2e-3))]);
         assert_eq!(parse("# nothing is known"), Ok(Vec::new()));
     }
 

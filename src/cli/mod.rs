@@ -4,6 +4,7 @@
 //! |---|---|
 //! | [`args`] | verbs, options and their help |
 //! | [`check`], [`compare`], [`eval`], [`explain`], [`render`], [`scenes`], [`shader`] | one job a verb |
+//! | [`growth`] | `check --until-failure` |
 //! | [`scene_files`] | what a typed scene means |
 //! | [`shader_files`] | what a typed shader file means |
 //! | [`subjects`] | what a typed subject means, and where it runs |
@@ -24,6 +25,7 @@ mod ending;
 mod eval;
 mod explain;
 mod failure;
+mod growth;
 mod known;
 mod output;
 mod render;

@@ -6,9 +6,11 @@ use super::output;
 use super::shader_files::ShaderFile;
 use hashed_alpha::check::shaders;
 use hashed_alpha::check::{Subject, subject::Precision};
+use hashed_alpha::render::scene_file::diagnostic::likely;
 use hashed_alpha::scene::{Fragment, Scene};
 use hashed_alpha::shader::interpreter::DeviceModel;
 use hashed_alpha::shader::own::{self, OwnShader};
+use hashed_alpha::threshold::hash::{HashKind, UnknownName};
 use hashed_alpha::threshold::pipeline::Pipeline;
 use hashed_alpha::threshold::robust::{Join, Robust};
 use hashed_alpha::threshold::two_scale::Variant;
@@ -23,6 +25,8 @@ struct Typed<'a> {
 
 enum What<'a> {
     File(ShaderFile<'a>),
+    /// A hash of the list, alone.
+    Hash(&'a str),
     BuiltIn(&'a str),
 }
 
@@ -30,6 +34,9 @@ impl<'a> Typed<'a> {
     fn of(word: &'a str) -> Self {
         if let Some(file) = ShaderFile::of(word) {
             return Self { on: None, what: What::File(file) };
+        }
+        if let Some(name) = word.strip_prefix("hash:") {
+            return Self { on: None, what: What::Hash(name) };
         }
         let (on, name) = match word.split_once(':') {
             Some(("gpu", name)) => (Some(On::Gpu), name),
@@ -44,6 +51,7 @@ impl<'a> Typed<'a> {
 pub fn may_need_a_device(word: &str, on: On) -> bool {
     let typed = Typed::of(word);
     match typed.on.unwrap_or(on) {
+        _ if matches!(typed.what, What::Hash(_)) => false,
         On::Gpu => true,
         On::Auto => matches!(typed.what, What::File(_)),
         On::Cpu | On::DeviceModel => false,
@@ -53,7 +61,11 @@ pub fn may_need_a_device(word: &str, on: On) -> bool {
 /// Whether a subject is one of this program's own, in Rust.
 pub fn is_in_rust(word: &str, on: On) -> bool {
     let typed = Typed::of(word);
-    matches!((typed.what, typed.on.unwrap_or(on)), (What::BuiltIn(_), On::Auto | On::Cpu))
+    match typed.what {
+        What::File(_) => false,
+        What::Hash(_) => true,
+        What::BuiltIn(_) => matches!(typed.on.unwrap_or(on), On::Auto | On::Cpu),
+    }
 }
 
 /// The families of thresholds that this program has itself.
@@ -63,6 +75,8 @@ pub enum Family {
     Paper,
     /// The robust threshold.
     Robust,
+    /// A hash of the list, alone.
+    Hash,
 }
 
 /// Where a subject runs.
@@ -98,6 +112,7 @@ pub fn subjects(typed: &[String], args: &ShaderArgs) -> Result<Vec<Asked>, Failu
         let typed = Typed::of(word);
         let more = match &typed.what {
             What::File(typed) => file(typed, args)?,
+            What::Hash(name) => hash(name)?,
             What::BuiltIn(name) => {
                 built_in(name, typed.on.unwrap_or(args.on), args)?.ok_or_else(|| unknown(word))?
             }
@@ -115,8 +130,25 @@ pub fn subjects(typed: &[String], args: &ShaderArgs) -> Result<Vec<Asked>, Failu
 fn unknown(word: &str) -> Failure {
     Failure::Usage(format!(
         "unknown subject `{word}`; known are paper:isotropic, paper:anisotropic, robust:isotropic, \
-         robust:anisotropic, each with gpu: before it too, and files that end in .wgsl, .glsl, .frag, .vert, .comp, .fs, .vs or .spv"
+         robust:anisotropic, each with gpu: before it too, hash: with the name of a hash behind it, and files that end in .wgsl, .glsl, .frag, .vert, .comp, .fs, .vs or .spv"
     ))
+}
+
+/// Returns a hash of the list alone: in both precisions where they differ.
+fn hash(name: &str) -> Result<Vec<Asked>, Failure> {
+    let kind: HashKind = name.parse().map_err(|error: UnknownName| {
+        let likely = likely(name, &HashKind::ALL.map(HashKind::name));
+        Failure::Usage(format!("{error}.{likely}"))
+    })?;
+    let precisions = if kind.is_exact() { &Precision::ALL[..1] } else { &Precision::ALL[..] };
+    let name = format!("hash:{kind}");
+    let asked = |&precision: &Precision| Asked {
+        subject: Subject::of_hash(name.as_str(), precision, kind),
+        name: name.clone(),
+        place: Place::Rust,
+        family: Some(Family::Hash),
+    };
+    Ok(precisions.iter().map(asked).collect())
 }
 
 /// Returns the subjects of a family, or of one variant of it; nothing where there is none of that name.
@@ -143,7 +175,7 @@ fn built_in(name: &str, on: On, args: &ShaderArgs) -> Result<Option<Vec<Asked>>,
     for twin in all {
         let pipeline = match family {
             Family::Paper => Pipeline::listing(twin.variant),
-            Family::Robust => Pipeline::robust(twin.variant),
+            Family::Robust | Family::Hash => Pipeline::robust(twin.variant),
         };
         let shader = own::assembled(&twin.name, pipeline)?;
         let claims = Claimed {
@@ -172,6 +204,9 @@ fn file(typed: &ShaderFile<'_>, args: &ShaderArgs) -> Result<Vec<Asked>, Failure
     let set = || options.settings.get("hash_scale").and_then(|value| value.parse().ok());
     let hash_scale = args.hash_scale.or_else(set).unwrap_or(1.0);
     let shader = own::read(Path::new(typed.path), &options)?;
+    if shader.is_hash() {
+        return own_hash(&typed.name(), &shader, args);
+    }
     let preset = Robust::new(args.variant).join;
     let claims = Claimed {
         variant: args.variant,
@@ -188,6 +223,17 @@ fn file(typed: &ShaderFile<'_>, args: &ShaderArgs) -> Result<Vec<Asked>, Failure
         remarks.iter().for_each(|remark| output::remark("note", remark));
     }
     Ok(subjects)
+}
+
+/// Puts a shader's hash where it is wanted: integers are the same everywhere, so that the interpreter stands for every device.
+fn own_hash(name: &str, shader: &OwnShader, args: &ShaderArgs) -> Result<Vec<Asked>, Failure> {
+    if matches!(args.on, On::Gpu | On::DeviceModel) {
+        let message =
+            format!("{name} is a hash of whole numbers, which runs in the interpreter: leave out --on");
+        return Err(Failure::Usage(message));
+    }
+    let subject = shaders::interpreted_hash(name, shader, DeviceModel::ACCURATE)?;
+    Ok(vec![Asked { subject, name: name.to_owned(), place: Place::Interpreter, family: Some(Family::Hash) }])
 }
 
 /// Runs a few fragments in the interpreter: an endless loop comes to light there, before the first claim; drivers hang on
@@ -323,6 +369,17 @@ mod tests {
         assert_eq!(names(&["paper"], &[]).unwrap().len(), 4);
         let error = names(&["paper", "pap"], &[]).unwrap_err();
         assert!(error.starts_with("unknown subject `pap`; known are paper:isotropic, "), "{error}");
+    }
+
+    #[test]
+    fn a_hash_stands_alone_in_both_precisions_where_they_differ() {
+        assert_eq!(names(&["hash:mm4"], &["--on", "gpu"]).unwrap(), ["hash:mm4 f32"]);
+        assert_eq!(names(&["hash:sine"], &[]).unwrap(), ["hash:sine f32", "hash:sine f64"]);
+        let error = names(&["hash:pcg3"], &[]).unwrap_err();
+        assert!(
+            error.starts_with("unknown hash `pcg3`; known are sine, ") && error.contains("mean `pcg3d`?"),
+            "{error}"
+        );
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use crate::check::evidence::{ComparedShare, NamedHistogram};
 use crate::check::subject::Precision;
-use crate::check::{Evidence, Outcome, Verdict};
+use crate::check::{Domain, Evidence, Outcome, Verdict};
 use crate::threshold::two_scale::Variant;
 
 /// An outcome without remark.
@@ -24,9 +24,11 @@ pub fn consistent() -> Outcome {
         effect: Some(5.84e-5),
         effect_name: "excess chi-square per sample",
         detectable: Some(1.6e-4),
+        domain: Domain::default(),
         seed: 18_446_744_073_709_551_615,
         seen: None,
         known: None,
+        listing: None,
         rounds: 1,
         evidence: Evidence::Histograms(vec![NamedHistogram {
             name: "all".to_owned(),

@@ -1,5 +1,6 @@
 //! The outcomes as one page: no scripts, nothing from elsewhere, pictures in files beside it.
 
+use super::sampled;
 use super::text::{number, remark, summary};
 use crate::check::diagnosis::{Diagnosis, diagnoses};
 use crate::check::outcome::worst;
@@ -44,6 +45,7 @@ struct Shown<'a> {
     effect: String,
     effect_name: &'a str,
     detectable: String,
+    domain: Option<String>,
     picture: Option<&'a str>,
     alt: String,
 }
@@ -129,6 +131,8 @@ pub fn page(
         subjects,
         rows => Serde(&rows),
         claims => Serde(&listed),
+        sampled => sampled::rows(outcomes),
+        sampled_headings => sampled::HEADINGS,
         lookalikes => Serde(&lookalikes(outcomes)),
     })
 }
@@ -154,6 +158,7 @@ fn claim<'a>(index: usize, outcome: &'a Outcome, picture: Option<&'a str>) -> Sh
         effect: number(outcome.effect),
         effect_name: outcome.effect_name,
         detectable: number(outcome.detectable),
+        domain: (outcome.domain.n > 0).then(|| outcome.domain.to_string()),
         picture,
         alt: format!(
             "Evidence of {} on {} in {}, which is {verdict}",

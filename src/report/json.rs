@@ -1,7 +1,8 @@
 //! The outcomes as JSON Lines: one object a claim, in the order in which the claims were tried.
 
-use crate::check::Outcome;
+use crate::check::domain::Levels;
 use crate::check::known::listing_fails;
+use crate::check::{Domain, Outcome};
 use serde::Serialize;
 use std::io::{self, Write};
 
@@ -33,6 +34,52 @@ struct Line<'a> {
     rounds: u32,
     listing_fails: Option<&'a str>,
     standing: &'a str,
+    domain: Option<Sampled>,
+}
+
+/// What was sampled. Ranges have both ends; octaves and distances are whole logarithms to base two.
+#[derive(Serialize)]
+struct Sampled {
+    thresholds: u64,
+    octaves: Vec<[i32; 2]>,
+    log2_distances: Vec<[i32; 2]>,
+    octants: u32,
+    half_axes: u32,
+    log2_ratios: Vec<[i32; 2]>,
+    zero_derivatives: Vec<&'static str>,
+    lods: Vec<[i32; 2]>,
+    layers: Vec<[i32; 2]>,
+    frames: usize,
+    first_frame: Option<u32>,
+    last_frame: Option<u32>,
+    hash_scales: Vec<f64>,
+    pixels: Option<[f64; 2]>,
+    texcoords: Option<[f64; 2]>,
+}
+
+impl From<&Domain> for Sampled {
+    fn from(domain: &Domain) -> Self {
+        let ends = |levels: Levels| {
+            levels.ranges().into_iter().map(|range| [*range.start(), *range.end()]).collect::<Vec<_>>()
+        };
+        Self {
+            thresholds: domain.n,
+            octaves: ends(domain.octaves),
+            log2_distances: ends(domain.distances),
+            octants: domain.octants(),
+            half_axes: domain.half_axes(),
+            log2_ratios: ends(domain.ratios),
+            zero_derivatives: domain.zero_derivatives(),
+            lods: ends(domain.lods),
+            layers: ends(domain.layers),
+            frames: domain.frames.len(),
+            first_frame: domain.frames.first().copied(),
+            last_frame: domain.frames.last().copied(),
+            hash_scales: domain.hash_scales(),
+            pixels: domain.pixels,
+            texcoords: domain.texcoords,
+        }
+    }
 }
 
 impl<'a> From<&'a Outcome> for Line<'a> {
@@ -61,6 +108,7 @@ impl<'a> From<&'a Outcome> for Line<'a> {
             rounds: outcome.rounds,
             listing_fails: listing_fails(outcome),
             standing: outcome.standing().name(),
+            domain: (outcome.domain.n > 0).then(|| Sampled::from(&outcome.domain)),
         }
     }
 }
@@ -102,7 +150,7 @@ mod tests {
              \"detectable\":0.00016,\"seed\":18446744073709551615,\"finding\":null,\"expected\":\"consistent\",\
              \"statement\":\"Thresholds are uniform for every lerp factor.\",\
              \"statistic_name\":\"chi-square, 63 dof\",\"effect_name\":\"excess chi-square per sample\",\"known\":null,\"rounds\":1,\
-             \"listing_fails\":null,\"standing\":\"as_expected\"}"
+             \"listing_fails\":null,\"standing\":\"as_expected\",\"domain\":null}"
         );
     }
 
@@ -113,7 +161,7 @@ mod tests {
         for line in &lines {
             let value: serde_json::Value = serde_json::from_str(line).unwrap();
             assert_eq!(value["schema"], 2);
-            assert_eq!(value.as_object().unwrap().len(), 22);
+            assert_eq!(value.as_object().unwrap().len(), 23);
         }
     }
 }

@@ -7,7 +7,9 @@
 //! | [`text`] | `cli` | the table for a terminal, one line a claim |
 //! | [`by_model`] | `cli` | which claims hold on which device models |
 //! | [`html`] | `cli` | one page that needs nothing but the pictures beside it |
+//! | [`sampled`] | `cli` | what each claim has sampled of the domain |
 //! | [`study`] | `cli` | plans, counts and numbers of scenes as text, CSV and JSON |
+//! | [`growth`] | samples until failure: the table, one JSON object a claim, the state that a run continues from |
 //! | [`directory`] | `cli` | all of that as files |
 //! | [`cost`] | `cli` | what was measured of time: tables, JSON Lines, pictures |
 //!
@@ -23,9 +25,13 @@ pub mod directory;
 #[cfg(feature = "plots")]
 pub mod figure;
 #[cfg(feature = "cli")]
+pub mod growth;
+#[cfg(feature = "cli")]
 pub mod html;
 #[cfg(feature = "cli")]
 pub mod json;
+#[cfg(feature = "cli")]
+pub mod sampled;
 #[cfg(feature = "cli")]
 pub mod study;
 #[cfg(feature = "cli")]

@@ -1,5 +1,6 @@
 //! The outcomes as a table for a terminal, at most [`COLUMNS`] wide.
 
+use super::sampled;
 use crate::check::diagnosis::{Diagnosis, diagnoses};
 use crate::check::{Outcome, Standing, Verdict};
 use std::fmt::Write as _;
@@ -19,9 +20,11 @@ const GAP: usize = 2;
 /// Where findings begin.
 const INDENT: &str = "    ";
 const SHORTEST_NAME: usize = 12;
+/// Characters of a column of what was sampled: the name of a claim fits.
+const WIDEST_SAMPLED: usize = 28;
 
 /// Returns the table, with a line break after every line: headings, one line a claim, below it its finding where it
-/// has one, then what each subject looks like that something speaks against, and [`summary`].
+/// has one, then what each claim has sampled, what each subject looks like that something speaks against, and [`summary`].
 ///
 /// `colour` puts ANSI colours around verdicts: green where the answer is the expected one, red where it is not and nobody knew,
 /// yellow where it is known or there is none. Without it the text is plain. Names that do not fit are cut in the middle.
@@ -52,6 +55,7 @@ pub fn table(outcomes: &[Outcome], colour: bool) -> String {
             push_finding(&mut text, outcome, paint);
         }
     }
+    push_sampled(&mut text, outcomes);
     for diagnosis in diagnoses(outcomes) {
         push_diagnosis(&mut text, &diagnosis);
     }
@@ -175,6 +179,25 @@ fn push_row(text: &mut String, cells: &[String; 8], widths: &[usize; 8], paint: 
     push_line(text, line.trim_end());
 }
 
+/// Appends what each claim has sampled, in columns as wide as they need to be, up to [`COLUMNS`].
+fn push_sampled(text: &mut String, outcomes: &[Outcome]) {
+    let rows = sampled::rows(outcomes);
+    if rows.is_empty() {
+        return;
+    }
+    let rows: Vec<_> = std::iter::once(sampled::HEADINGS.map(str::to_owned)).chain(rows).collect();
+    let mut widths = [0; 9];
+    for row in &rows {
+        for (width, cell) in widths.iter_mut().zip(row) {
+            *width = (*width).max(cell.chars().count()).min(WIDEST_SAMPLED);
+        }
+    }
+    for row in &rows {
+        let padded = row.iter().zip(widths).map(|(cell, width)| format!("{:width$}", cut(cell, width)));
+        push_line(text, cut(padded.collect::<Vec<_>>().join("  ").trim_end(), COLUMNS).as_str());
+    }
+}
+
 fn push_finding(text: &mut String, outcome: &Outcome, paint: Option<&str>) {
     // What is known needs no evidence in a terminal; the page has it.
     let known = outcome.known.as_ref().map(|reason| format!("known: {reason}"));
@@ -205,7 +228,7 @@ fn push_diagnosis(text: &mut String, diagnosis: &Diagnosis<'_>) {
 }
 
 /// Breaks a text between words; a word that is longer than the line is broken too.
-fn wrap(text: &str, width: usize) -> Vec<String> {
+pub(super) fn wrap(text: &str, width: usize) -> Vec<String> {
     let mut lines = vec![String::new()];
     for word in text.split_whitespace() {
         let pieces: Vec<char> = word.chars().filter(|c| !c.is_control()).collect();

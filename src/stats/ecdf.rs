@@ -2,6 +2,7 @@
 
 use super::StatsError;
 use super::binomial::{binomial_pmf, poisson_pmf};
+use super::histogram::Histogram;
 use std::f64::consts::PI;
 
 /// Largest sample for which the bulk of the law is computed exactly (some milliseconds at the limit).
@@ -53,6 +54,28 @@ pub fn kolmogorov_smirnov(values: &mut [f64]) -> Result<KolmogorovSmirnov, Stats
         .fold(0.0, f64::max);
     let dkwm = (2.0 * libm::exp(-2.0 * n * d * d)).min(1.0);
     let n = values.len() as u64;
+    Ok(KolmogorovSmirnov { d, n, p: upper_p(d, n), dkwm })
+}
+
+/// Measures how far values in bins are from uniform on `[0, 1]`, at the edges of the bins alone.
+///
+/// Returns the distance of the edge where it is largest, which is at most that of the values themselves; so both
+/// probabilities are never too small.
+///
+/// # Errors
+/// [`StatsError::Empty`] without values.
+pub fn distance_at_edges(counts: &Histogram) -> Result<KolmogorovSmirnov, StatsError> {
+    let n = counts.total();
+    if n == 0 {
+        return Err(StatsError::Empty);
+    }
+    let bins = counts.counts().len() as f64;
+    let (mut below, mut d) = (0_u64, 0.0_f64);
+    for (bin, count) in counts.counts().iter().enumerate() {
+        d = d.max((below as f64 / n as f64 - bin as f64 / bins).abs());
+        below += count;
+    }
+    let dkwm = (2.0 * libm::exp(-2.0 * n as f64 * d * d)).min(1.0);
     Ok(KolmogorovSmirnov { d, n, p: upper_p(d, n), dkwm })
 }
 
@@ -207,6 +230,22 @@ mod tests {
 
     fn assert_close(actual: f64, expected: f64, relative: f64) {
         assert!((actual / expected - 1.0).abs() <= relative, "{actual:e} is not {expected:e}");
+    }
+
+    #[test]
+    fn edges_see_no_more_than_the_values_do() {
+        let mut values: Vec<f64> = (0..1000).map(|i| f64::from(i * i) / 1.0e6).collect();
+        let distance = |bins| {
+            let mut counts = Histogram::new(bins);
+            counts.extend(values.iter().copied());
+            distance_at_edges(&counts).unwrap()
+        };
+        let found = [2, 64, 1 << 20].map(|bins| distance(bins).d);
+        assert!((found[0] - (0.5_f64.sqrt() - 0.5)).abs() < 2e-3, "{found:?}");
+        let exact = kolmogorov_smirnov(&mut values).unwrap();
+        assert!(found[0] <= found[1] && found[1] <= found[2] && found[2] <= exact.d, "{found:?} {exact:?}");
+        assert!(exact.d - found[2] < 2e-3);
+        assert_eq!(distance_at_edges(&Histogram::new(4)), Err(StatsError::Empty));
     }
 
     #[test]

@@ -62,6 +62,16 @@ impl<H> Model<H> {
         }
     }
 
+    /// The same with a noise of so many pixels.
+    #[must_use]
+    pub fn with_hash_scale(self, hash_scale: f64) -> Self {
+        match self {
+            Self::Hashed(hashed) => Self::Hashed(HashedAlpha { hash_scale, ..hashed }),
+            Self::BeforeCdf(hashed) => Self::BeforeCdf(HashedAlpha { hash_scale, ..hashed }),
+            Self::Robust(robust) => Self::Robust(Robust { hash_scale, ..robust }),
+        }
+    }
+
     /// The number of hashes that it computes for one threshold.
     #[must_use]
     pub const fn hashes(&self) -> u64 {

@@ -52,6 +52,30 @@ fn parameters_are_found_by_name_in_any_order() {
 }
 
 #[test]
+fn a_hash_takes_a_cell_and_gives_32_bits() {
+    let text = "fn threshold(v: vec4u) -> u32 { return v.x ^ (v.y << 8u) ^ (v.z << 16u) ^ (v.w << 24u); }";
+    let shader = wgsl(text, &options(&[])).unwrap();
+    assert!(shader.is_hash());
+    assert_eq!(shader.bindings[0].input, Input::Cell);
+    assert_eq!(shader.call(), "own_threshold(vec4<u32>(word(0u), word(1u), word(2u), word(3u)), )");
+    // Four cells a unit: octave 2.
+    let derivative = glam::dvec3(0.25, 0.0, 0.0);
+    let position = glam::dvec3(0.3, 0.9, -0.1);
+    let footprint = Footprint { position, dpdx: derivative, dpdy: glam::DVec3::ZERO };
+    let fragments = [Fragment::from(footprint); 2];
+    let cell = [1, 3, u32::MAX, 2];
+    assert_eq!(shader.words(&fragments), [cell, cell].concat());
+    let program = shader.program().unwrap();
+    let hash = cell[0] ^ cell[1] << 8 ^ cell[2] << 16 ^ cell[3] << 24;
+    let model = hashed_alpha::shader::interpreter::DeviceModel::ACCURATE;
+    assert_eq!(shader.hashes(&program, &fragments, &model).unwrap(), [hash; 2]);
+    assert!(shader.thresholds(&program, &fragments, &model).is_err());
+    // A vector of another type is no cell.
+    let error = wgsl("fn threshold(v: vec4i) -> u32 { return 1u; }", &options(&[])).unwrap_err().to_string();
+    assert!(error.contains("returns u32") && error.contains("from one vec4<u32>"), "{error}");
+}
+
+#[test]
 fn settings_reach_uniforms_overrides_and_parameters_and_nothing_else() {
     let uniform = "@group(0) @binding(0) var<uniform> foo: f32;\nfn threshold() -> f32 { return foo; }";
     assert!(wgsl(uniform, &options(&[("foo", "0.25")])).unwrap().wgsl().unwrap().contains("0.25"));

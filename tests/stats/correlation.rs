@@ -22,6 +22,25 @@ fn degenerate_sequences_are_refused() {
 }
 
 #[test]
+fn chunks_add_up_to_the_whole() {
+    let mut rng = rng("stats.correlation.chunks", 0);
+    let x: Vec<f64> = (0..1000).map(|_| uniform01(&mut rng)).collect();
+    let y: Vec<f64> = x.iter().map(|&x| 5.0 + 0.3 * x + uniform01(&mut rng)).collect();
+    let whole = pearson(&x, &y).unwrap();
+    let mut sums = Moments::default();
+    sums.merge(&Moments::of(&x, &y));
+    assert_eq!(sums.correlation(), Ok(whole));
+    let mut sums = Moments::default();
+    for (x, y) in x.chunks(300).zip(y.chunks(300)) {
+        sums.merge(&Moments::of(x, y));
+    }
+    sums.merge(&Moments::of(&[], &[]));
+    let chunked = sums.correlation().unwrap();
+    assert_eq!(chunked.n, 1000);
+    assert_close(chunked.r, whole.r, 1e-12);
+}
+
+#[test]
 fn p_is_uniform_on_an_ideal_source() {
     assert_uniform_p("stats.correlation.pearson", |rng| {
         let x: Vec<f64> = (0..200).map(|_| uniform01(rng)).collect();

@@ -17,6 +17,10 @@ const ATOM_THRESHOLD: f64 = 1.0e-5;
 /// seventh of that of the `f32` sine hash.
 const ATOM_BLOCK: [u32; 3] = [64, 128, 128];
 
+/// Most layers of the block when it grows: 2^33 cells, whose indices stay below 2^21, where the robust threshold begins to
+/// enlarge its cells.
+const MOST_LAYERS: usize = 1 << 20;
+
 /// An end of the range: one step of the coarsest grid of the `f32` sine hash.
 const END: f64 = 1.0 / 1024.0;
 
@@ -67,9 +71,9 @@ fn block_of_cells(
     Ok(u64::from(nx) * u64::from(ny) * u64::from(layers))
 }
 
-/// Layers of a block: no fewer than [`Budget::Ci`](crate::check::Budget::Ci) has.
+/// Layers of a block: no fewer than [`Budget::Ci`](crate::check::Budget::Ci) has, and no more than [`MOST_LAYERS`].
 fn layers(draw: &Draw, at_ci: u32) -> u32 {
-    draw.samples_at_least(at_ci as usize) as u32
+    draw.stream_at_least(at_ci as usize, at_ci as usize).min(MOST_LAYERS) as u32
 }
 
 fn zero(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {

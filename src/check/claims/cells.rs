@@ -2,11 +2,12 @@
 
 use crate::check::evidence::NamedHistogram;
 use crate::check::input::{UsedCells, at_scale, draw_cell};
-use crate::check::judge::{histogram, uncorrelated};
-use crate::check::tolerance::{DRAWS_A_SAMPLE, FAMILY_LEVEL, POWER, SINGLE_LEVEL};
+use crate::check::judge::uncorrelated;
+use crate::check::tolerance::{BINS, DRAWS_A_SAMPLE, FAMILY_LEVEL, POWER, SINGLE_LEVEL};
 use crate::check::trial::reject_outsiders;
 use crate::check::{Attempt, Claim, Conclusion, Draw, Evidence, Promise, Subject, Trial, Verdict};
 use crate::stats::chi_square::{self, ChiSquare};
+use crate::stats::histogram::Histogram;
 use crate::stats::{correlation, ecdf, power, seed};
 use crate::threshold::footprint::Footprint;
 use glam::{DVec3, dvec3};
@@ -117,10 +118,15 @@ fn window(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     let mut evidence = Vec::new();
     for offset in WINDOW_OFFSETS {
         for (along, direction) in directions {
-            let samples = window_samples(subject, direction * offset, draw.samples(WINDOW_SAMPLES), &mut rng);
-            let values = subject.thresholds(&samples);
-            reject_outsiders(subject, &samples, &values)?;
-            let counts = histogram(values);
+            let n = draw.stream(WINDOW_SAMPLES);
+            let mut used = UsedCells::of(draw, 2 * n);
+            let mut counts = Histogram::new(BINS);
+            for chunk in draw.chunks(n) {
+                let samples = window_samples(subject, direction * offset, chunk, &mut used, &mut rng);
+                let values = subject.thresholds(&samples);
+                reject_outsiders(subject, &samples, &values)?;
+                counts.extend(values);
+            }
             let name = format!("{offset} cells along {along}");
             let Ok(test) = chi_square::uniform(counts.counts()) else { continue };
             tests.push(test);
@@ -138,16 +144,17 @@ fn window(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     Ok(Trial::worst_of(&tests, n, seen, Evidence::Histograms(evidence)))
 }
 
-/// Draws footprints whose cells lie in a window that begins at `offset`, no two of which touch the same cell.
+/// Draws `n` footprints whose cells lie in a window that begins at `offset`, none of which touches a cell that is used; fewer
+/// when the window has not enough cells.
 ///
 /// At a scale of 1: all weight is on one octave, and positions are exact as far out as the indices of the cells are.
 fn window_samples(
     subject: &Subject<'_>,
     offset: DVec3,
     n: usize,
+    used: &mut UsedCells,
     rng: &mut Xoshiro256PlusPlus,
 ) -> Vec<Footprint<f64>> {
-    let mut used = UsedCells::default();
     let mut samples = Vec::with_capacity(n);
     for _ in 0..n * DRAWS_A_SAMPLE {
         if samples.len() == n {
@@ -172,34 +179,42 @@ fn mirror(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
         ("cells with x and y exchanged", |v| dvec3(v.y, v.x, v.z)),
     ];
     let mut rng = draw.rng(MIRROR.id);
-    let mut used = UsedCells::default();
-    let pairs = draw.samples(MIRROR_PAIRS);
-    let mut samples: Vec<Footprint<f64>> = Vec::with_capacity(4 * pairs);
-    while samples.len() < 4 * pairs {
-        let cell = draw_cell(&mut rng);
-        // Corners of cells, so that the mirrored position is the corner of the mirrored cell.
-        let first = at_scale(subject.variant, subject.hash_scale, cell, fractions(&mut rng));
-        // All cells that are their own image have x = y.
-        let on_a_mirror = cell.x == cell.y;
-        let image = |map: Symmetry| {
-            let [position, dpdx, dpdy] = [first.position, first.dpdx, first.dpdy].map(map);
-            subject.precision.round(&Footprint { position, dpdx, dpdy })
-        };
-        let group = [image(|v| v), image(SYMMETRIES[0].1), image(SYMMETRIES[1].1), image(SYMMETRIES[2].1)];
-        if !on_a_mirror && used.claim(subject, &group) {
-            samples.extend(group);
+    let pairs = draw.stream(MIRROR_PAIRS);
+    let mut used = UsedCells::of(draw, 8 * pairs);
+    let mut moments = [correlation::Moments::default(); SYMMETRIES.len()];
+    for chunk in draw.chunks(pairs) {
+        let mut samples: Vec<Footprint<f64>> = Vec::with_capacity(4 * chunk);
+        for _ in 0..chunk * DRAWS_A_SAMPLE {
+            if samples.len() == 4 * chunk {
+                break;
+            }
+            let cell = draw_cell(&mut rng);
+            // Corners of cells, so that the mirrored position is the corner of the mirrored cell.
+            let first = at_scale(subject.variant, subject.hash_scale, cell, fractions(&mut rng));
+            // All cells that are their own image have x = y.
+            let on_a_mirror = cell.x == cell.y;
+            let image = |map: Symmetry| {
+                let [position, dpdx, dpdy] = [first.position, first.dpdx, first.dpdy].map(map);
+                subject.precision.round(&Footprint { position, dpdx, dpdy })
+            };
+            let group =
+                [image(|v| v), image(SYMMETRIES[0].1), image(SYMMETRIES[1].1), image(SYMMETRIES[2].1)];
+            if !on_a_mirror && used.claim(subject, &group) {
+                samples.extend(group);
+            }
+        }
+        let values = subject.thresholds(&samples);
+        reject_outsiders(subject, &samples, &values)?;
+        let column = |which: usize| values.iter().skip(which).step_by(4).copied().collect::<Vec<f64>>();
+        let first = column(0);
+        for (index, sums) in moments.iter_mut().enumerate() {
+            sums.merge(&correlation::Moments::of(&first, &column(index + 1)));
         }
     }
-    let values = subject.thresholds(&samples);
-    reject_outsiders(subject, &samples, &values)?;
-    let column = |which: usize| values.iter().skip(which).step_by(4).copied().collect::<Vec<f64>>();
-    let first = column(0);
     let worst = SYMMETRIES
         .iter()
-        .enumerate()
-        .filter_map(|(index, (name, _))| {
-            Some((correlation::pearson(&first, &column(index + 1)).ok()?, *name))
-        })
+        .zip(moments)
+        .filter_map(|((name, _), sums)| Some((sums.correlation().ok()?, *name)))
         .max_by(|a, b| a.0.r.abs().total_cmp(&b.0.r.abs()));
     let Some((found, name)) = worst else {
         return Ok(Trial::without(Conclusion::Exact { holds: false }, "the threshold is a constant"));

@@ -7,13 +7,12 @@
 use crate::check::input::{
     UsedCells, at_scale, draw_cell, numerator, placement, tangents, tilted, turned, zoomed,
 };
-use crate::check::predict::{largest_change, log_scale, octaves_between};
-use crate::check::shrink::describe_pair;
+use crate::check::judge::pops::Pops;
+use crate::check::predict::octaves_between;
 use crate::check::subject::Nominal;
 use crate::check::tolerance::TILT_OCTAVES;
-use crate::check::trial::{detectable_share, reject_outsiders};
-use crate::check::{Attempt, Claim, Conclusion, Draw, Evidence, Precision, Promise, Subject, Trial, Verdict};
-use crate::scene::Fragment;
+use crate::check::trial::reject_outsiders;
+use crate::check::{Attempt, Claim, Conclusion, Draw, Precision, Promise, Subject, Trial, Verdict};
 use crate::stats::{binomial, seed};
 use crate::threshold::footprint::Footprint;
 use crate::threshold::robust::Join;
@@ -148,95 +147,10 @@ fn sweep(subject: &Subject<'_>, draw: &Draw, claim: &str, motion: &Sweep) -> Att
             .collect();
         let thresholds = subject.thresholds(&views);
         reject_outsiders(subject, &views, &thresholds)?;
-        if dithered {
-            pops.add_switches(subject, &views, &thresholds);
-        } else {
-            pops.add_jumps(subject, &views, &thresholds);
-        }
+        pops.add_path(subject, &views, &thresholds);
     }
     let motions = points as f64 * motion.length;
     Ok(pops.into_trial(motions, motion.effect_name))
-}
-
-/// Changes that are too large, or too many.
-#[derive(Default)]
-struct Pops {
-    count: u64,
-    steps: u64,
-    sum: f64,
-    largest: f64,
-    first: String,
-}
-
-impl Pops {
-    /// Counts the steps between views that change the threshold by more than the join allows.
-    fn add_jumps(&mut self, subject: &Subject<'_>, views: &[Footprint<f64>], thresholds: &[f64]) {
-        self.steps += views.len() as u64 - 1;
-        let mut before = subject.nominal(&views[0]);
-        for step in 1..views.len() {
-            let after = subject.nominal(&views[step]);
-            let jump = (thresholds[step] - thresholds[step - 1]).abs();
-            if jump > largest_change(subject, &before, &after) {
-                let pair = [views[step - 1], views[step]].map(Fragment::from);
-                self.add(jump, || {
-                    describe_pair(subject, &pair, |pair, [old, new]| {
-                        let [before, after] = pair.map(|view| subject.nominal(&view.footprint));
-                        (new - old).abs() > largest_change(subject, &before, &after)
-                    })
-                });
-            }
-            before = after;
-        }
-    }
-
-    /// Counts the switches beyond one an octave and axis.
-    fn add_switches(&mut self, subject: &Subject<'_>, views: &[Footprint<f64>], thresholds: &[f64]) {
-        self.steps += views.len() as u64 - 1;
-        let (Some(first), Some(last)) = (views.first(), views.last()) else { return };
-        let ends = [first, last].map(|view| log_scale(&subject.nominal(view)));
-        let axes = if subject.variant == Variant::Anisotropic { 3 } else { 1 };
-        let mut octaves: f64 =
-            (0..axes).map(|axis| (ends[1][axis].floor() - ends[0][axis].floor()).abs() + 1.0).sum();
-        for step in 1..views.len() {
-            let jump = (thresholds[step] - thresholds[step - 1]).abs();
-            if jump > 0.0 {
-                octaves -= 1.0;
-                if octaves < 0.0 {
-                    let pair = [views[step - 1], views[step]].map(Fragment::from);
-                    self.add(jump, || describe_pair(subject, &pair, |_, [old, new]| old != new));
-                }
-            }
-        }
-    }
-
-    fn add(&mut self, jump: f64, place: impl Fn() -> String) {
-        if self.count == 0 {
-            self.first = place();
-        }
-        self.count += 1;
-        self.sum += jump;
-        self.largest = self.largest.max(jump);
-    }
-
-    fn into_trial(self, motions: f64, effect_name: &'static str) -> Trial {
-        let rate = self.count as f64 / motions;
-        Trial {
-            conclusion: Conclusion::Exact { holds: self.count == 0 },
-            statistic: Some(self.count as f64),
-            statistic_name: "pops".into(),
-            n: self.steps,
-            effect: Some(rate),
-            effect_name,
-            detectable: Some(detectable_share(motions)),
-            seen: format!(
-                "{rate:.3} {effect_name}, by {:.3} in the mean and {:.3} at most; as in {}",
-                self.sum / self.count as f64,
-                self.largest,
-                self.first
-            ),
-            evidence: Evidence::None,
-        }
-    }
 }
 
 fn octave_boundary(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {

@@ -4,7 +4,7 @@
 //! cells, so the coverage of a block of pixels varies more than that of as many coins, by the design effect.
 
 use crate::check::evidence::ComparedShare;
-use crate::check::input::{Patch, general_scenes, independent};
+use crate::check::input::{Patch, UsedCells, general_scenes, more_independent};
 use crate::check::judge::detectable_error;
 use crate::check::predict::PairLaw;
 use crate::check::subject::Nominal;
@@ -78,15 +78,23 @@ fn mean(claim: &Claim, scenes: Vec<Scene>, subject: &Subject<'_>, draw: &Draw) -
     for scene in scenes {
         // A place for every sample: the law of one single plane is another claim.
         let name = scene.name;
-        let samples = independent(subject, &[scene], draw.samples(COVERAGE_SAMPLES), 1, &mut rng);
-        let values = subject.thresholds(&samples);
-        reject_outsiders(subject, &samples, &values)?;
-        let count = values.len() as u64;
+        let scene = [scene];
+        let samples = draw.stream(COVERAGE_SAMPLES);
+        let mut used = UsedCells::of(draw, 2 * samples);
+        let (mut count, mut passed) = (0, [0; COVERAGE_ALPHAS.len()]);
+        for chunk in draw.chunks(samples) {
+            let samples = more_independent(subject, &scene, chunk, 1, &mut used, &mut rng);
+            let values = subject.thresholds(&samples);
+            reject_outsiders(subject, &samples, &values)?;
+            count += values.len() as u64;
+            for (passed, alpha) in passed.iter_mut().zip(COVERAGE_ALPHAS) {
+                *passed += values.iter().filter(|&&threshold| threshold <= alpha).count() as u64;
+            }
+        }
         if count == 0 {
             continue;
         }
-        for alpha in COVERAGE_ALPHAS {
-            let kept = values.iter().filter(|&&threshold| threshold <= alpha).count() as u64;
+        for (alpha, kept) in COVERAGE_ALPHAS.into_iter().zip(passed) {
             least_p = least_p.min(binomial::two_sided_p(kept, count, alpha));
             points.push(ComparedShare {
                 series: name.to_owned(),

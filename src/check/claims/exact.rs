@@ -147,7 +147,7 @@ fn formula(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     let largest = found.iter().copied().fold(0.0, f64::max);
     let n = samples.len() as u64;
     let first = found.iter().position(|&error| is_bad(error)).map_or(String::new(), |first| {
-        let [shown] = shrunk(&[samples[first]], subject.precision, |candidates| {
+        let [shown] = shrunk(subject, &[samples[first]], |candidates| {
             let candidates = candidates.as_flattened();
             let interpolated = subject.interpolated(candidates).unwrap_or_default();
             let found = errors(candidates, &subject.thresholds(candidates), &interpolated);

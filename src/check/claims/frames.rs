@@ -1,6 +1,7 @@
 //! Thresholds over the frames of one point, and over the frames of one pixel.
 
 use crate::check::evidence::ComparedShare;
+use crate::check::input::everywhere::any_frame;
 use crate::check::input::{fragments_everywhere, general_scenes, placement, sighting};
 use crate::check::judge::{detectable_error, equality};
 use crate::check::predict::PairLaw;
@@ -12,8 +13,14 @@ use crate::scene::Fragment;
 use crate::stats::normal;
 use std::collections::HashMap;
 
-/// Frames at which a static threshold is asked: neighbours, powers of two, the last one; or as many periods.
+/// Frames at which all points of a static threshold are asked: neighbours, powers of two, the last one; or as many periods.
 const FRAMES: [u32; 6] = [0, 1, 2, 7, 1024, u32::MAX];
+
+/// Frames that follow each other from the first one, and as many at random, at which some of the points are asked.
+const MORE_FRAMES: u32 = 64;
+
+/// One point in so many of those.
+const FEWER_POINTS: usize = 16;
 
 /// What roundings of `f32` leave between two thresholds of one point in different strata: the sum, the part after the
 /// point and the clamp at 2^-24.
@@ -89,9 +96,26 @@ fn in_frame(subject: &Subject<'_>, points: &[Fragment], frame: u32) -> Vec<f64> 
 fn unchanging(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     let points = fragments_everywhere(subject, draw, STATIC.id);
     // Whole periods from the first frame, as far as frames can be counted.
-    let periods = FRAMES.map(|frame| frame.min(u32::MAX / subject.frames) * subject.frames);
-    let asked = |points: &[Fragment]| periods.map(|frame| in_frame(subject, points, frame)).to_vec();
-    Ok(equality(subject, &points, &asked(&points), |_, points| asked(points), "in another frame"))
+    let whole = |frame: u32| frame.min(u32::MAX / subject.frames) * subject.frames;
+    let in_frames = |points: &[Fragment], frames: &[u32]| {
+        frames.iter().map(|&frame| in_frame(subject, points, frame)).collect::<Vec<_>>()
+    };
+    let tried = |points: &[Fragment], frames: &[u32]| {
+        equality(
+            subject,
+            points,
+            &in_frames(points, frames),
+            |_, points| in_frames(points, frames),
+            "in another frame",
+        )
+    };
+    let mut rng = draw.rng("frames.static, more frames");
+    let any = (0..MORE_FRAMES).map(|_| any_frame(&mut rng) / subject.frames);
+    let more: Vec<u32> = (0..MORE_FRAMES).chain(any).map(whole).collect();
+    let some: Vec<Fragment> = points.iter().copied().step_by(FEWER_POINTS).collect();
+    let (of_all, of_some) = (tried(&points, &FRAMES.map(whole)), tried(&some, &more));
+    let holds = |trial: &Trial| trial.conclusion == Conclusion::Exact { holds: true };
+    Ok(if holds(&of_all) && !holds(&of_some) { of_some } else { of_all })
 }
 
 /// Thresholds of points in general position over one period from a frame on: frame by frame.
@@ -144,7 +168,7 @@ fn stratified(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
         }
     }
     let first = first.map_or(String::new(), |(point, from)| {
-        let [shown] = shrunk(&[point], subject.precision, |candidates| {
+        let [shown] = shrunk(subject, &[point], |candidates| {
             let candidates = candidates.as_flattened();
             let found = errors(candidates, from).unwrap_or_else(|_| vec![0.0; candidates.len()]);
             found.into_iter().map(|error| error > STRATUM_ROUNDING).collect()

@@ -1,11 +1,13 @@
 //! The hash of single cells, seen through thresholds at whole octaves, where the other octave has no weight.
 
+use crate::check::draw::KEPT_LIMIT;
 use crate::check::evidence::NamedHistogram;
 use crate::check::input::{UsedCells, draw_cell, in_cell};
-use crate::check::judge::{detectable_factor, histogram, uncorrelated};
-use crate::check::tolerance::{DRAWS_A_SAMPLE, FAR_PAIRS, PAIR_BINS};
+use crate::check::judge::{detectable_factor, uncorrelated};
+use crate::check::tolerance::{BINS, DRAWS_A_SAMPLE, FAR_PAIRS, PAIR_BINS};
 use crate::check::trial::reject_outsiders;
 use crate::check::{Attempt, Claim, Conclusion, Draw, Evidence, Promise, Subject, Trial, Verdict};
+use crate::stats::histogram::Histogram;
 use crate::stats::{binomial, chi_square, correlation};
 use crate::threshold::footprint::Footprint;
 use glam::{DVec3, dvec3};
@@ -67,27 +69,33 @@ pub const RESONANCE: Claim = Claim {
     run: resonance,
 };
 
-/// Draws `n` groups of footprints out of a cell each, no two groups touching the same cell, and evaluates them.
+/// Draws `n` groups of footprints out of a cell each, no two groups touching the same cell, and hands over their thresholds
+/// chunk by chunk.
 fn groups<const N: usize>(
     subject: &Subject<'_>,
+    draw: &Draw,
     n: usize,
     rng: &mut Xoshiro256PlusPlus,
     group: impl Fn(DVec3) -> [Footprint<f64>; N],
-) -> Attempt<Vec<f64>> {
-    let mut used = UsedCells::default();
-    let mut samples = Vec::with_capacity(N * n);
-    for _ in 0..n.saturating_mul(DRAWS_A_SAMPLE) {
-        if samples.len() == N * n {
-            break;
+    mut each: impl FnMut(&[f64]),
+) -> Attempt<()> {
+    let mut used = UsedCells::of(draw, 2 * N * n);
+    for chunk in draw.chunks(n) {
+        let mut samples = Vec::with_capacity(N * chunk);
+        for _ in 0..chunk.saturating_mul(DRAWS_A_SAMPLE) {
+            if samples.len() == N * chunk {
+                break;
+            }
+            let group = group(draw_cell(rng));
+            if used.claim(subject, &group) {
+                samples.extend(group);
+            }
         }
-        let group = group(draw_cell(rng));
-        if used.claim(subject, &group) {
-            samples.extend(group);
-        }
+        let values = subject.thresholds(&samples);
+        reject_outsiders(subject, &samples, &values)?;
+        each(&values);
     }
-    let values = subject.thresholds(&samples);
-    reject_outsiders(subject, &samples, &values)?;
-    Ok(values)
+    Ok(())
 }
 
 fn children(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
@@ -96,10 +104,13 @@ fn children(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     let mut pooled = vec![0; PAIR_BINS * PAIR_BINS];
     for child in 0..8_u32 {
         let within = DVec3::from_array([1, 2, 4].map(|bit| f64::from(u32::from(child & bit != 0))));
-        let values = groups(subject, draw.samples_at_least(FAR_PAIRS), &mut rng, |cell| {
-            [in_cell(subject, cell, 0), in_cell(subject, 2.0 * cell + within, 1)]
+        let mut table = vec![0; PAIR_BINS * PAIR_BINS];
+        let pair = |cell| [in_cell(subject, cell, 0), in_cell(subject, 2.0 * cell + within, 1)];
+        groups(subject, draw, draw.stream_at_least(FAR_PAIRS, FAR_PAIRS), &mut rng, pair, |values| {
+            let twos = values.chunks_exact(2).map(|pair| (pair[0], pair[1]));
+            let counts = correlation::pair_table(twos, PAIR_BINS);
+            table.iter_mut().zip(&counts).for_each(|(sum, count)| *sum += count);
         })?;
-        let table = correlation::pair_table(values.chunks_exact(2).map(|pair| (pair[0], pair[1])), PAIR_BINS);
         pooled.iter_mut().zip(&table).for_each(|(sum, count)| *sum += count);
         tests.extend(chi_square::independence(&table, PAIR_BINS));
     }
@@ -113,13 +124,14 @@ fn differences(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     let mut tests = Vec::new();
     let mut evidence = Vec::new();
     for (name, step) in [("x", DVec3::X), ("y", DVec3::Y), ("z", DVec3::Z), ("the diagonal", DVec3::ONE)] {
-        let values = groups(subject, draw.samples(DIFFERENCE_PAIRS), &mut rng, |cell| {
-            [in_cell(subject, cell, 0), in_cell(subject, cell + step, 0)]
+        let mut counts = Histogram::new(BINS);
+        let pair = |cell| [in_cell(subject, cell, 0), in_cell(subject, cell + step, 0)];
+        groups(subject, draw, draw.stream(DIFFERENCE_PAIRS), &mut rng, pair, |values| {
+            counts.extend(values.chunks_exact(2).map(|pair| {
+                let difference = pair[1] - pair[0];
+                difference - difference.floor()
+            }));
         })?;
-        let counts = histogram(values.chunks_exact(2).map(|pair| {
-            let difference = pair[1] - pair[0];
-            difference - difference.floor()
-        }));
         tests.extend(chi_square::uniform(counts.counts()));
         evidence.push(NamedHistogram::new(format!("along {name}"), &counts));
     }
@@ -130,11 +142,17 @@ fn differences(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
 
 fn values(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     let mut rng = draw.rng(VALUES.id);
-    let mut bits: Vec<u64> =
-        groups(subject, draw.samples(VALUE_CELLS), &mut rng, |cell| [in_cell(subject, cell, 0)])?
-            .into_iter()
-            .map(f64::to_bits)
-            .collect();
+    let mut bits: Vec<u64> = Vec::new();
+    // They are sorted, so all of them have to be in memory.
+    let n = draw.stream(VALUE_CELLS).min(KEPT_LIMIT);
+    groups(
+        subject,
+        draw,
+        n,
+        &mut rng,
+        |cell| [in_cell(subject, cell, 0)],
+        |values| bits.extend(values.iter().map(|value| value.to_bits())),
+    )?;
     bits.sort_unstable();
     let n = bits.len() as u64;
     let runs = bits.chunk_by(|a, b| a == b).map(|run| run.len() as u64);
@@ -163,11 +181,13 @@ fn resonance(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     let mut worst: Option<(correlation::Correlation, [i32; 2])> = None;
     for lag in RESONANCES {
         let step = dvec3(f64::from(lag[0]), f64::from(lag[1]), 0.0);
-        let values = groups(subject, draw.samples(RESONANCE_PAIRS), &mut rng, |cell| {
-            [in_cell(subject, cell, 0), in_cell(subject, cell + step, 0)]
+        let mut moments = correlation::Moments::default();
+        let pair = |cell| [in_cell(subject, cell, 0), in_cell(subject, cell + step, 0)];
+        groups(subject, draw, draw.stream(RESONANCE_PAIRS), &mut rng, pair, |values| {
+            let column = |which: usize| values.iter().skip(which).step_by(2).copied().collect::<Vec<f64>>();
+            moments.merge(&correlation::Moments::of(&column(0), &column(1)));
         })?;
-        let column = |which: usize| values.iter().skip(which).step_by(2).copied().collect::<Vec<f64>>();
-        let Ok(found) = correlation::pearson(&column(0), &column(1)) else {
+        let Ok(found) = moments.correlation() else {
             return Ok(Trial::without(Conclusion::Exact { holds: false }, "the threshold is a constant"));
         };
         if worst.as_ref().is_none_or(|(least, _)| found.p < least.p) {

@@ -4,7 +4,7 @@ use crate::check::input::{Sighting, UsedCells, general_scenes, placement, sighti
 use crate::check::tolerance::{DRAWS_A_PLACE, DRAWS_A_SAMPLE, FAR_PAIRS, PAIR_BINS};
 use crate::check::trial::reject_outsiders;
 use crate::check::{Attempt, Claim, Draw, Evidence, Promise, Subject, Trial, Verdict};
-use crate::scene::Fragment;
+use crate::scene::{Fragment, Scene};
 use crate::stats::{chi_square, correlation};
 use glam::{DVec3, dvec3};
 use rand::rngs::Xoshiro256PlusPlus;
@@ -66,14 +66,8 @@ fn apart<'a>(subject: &'a Subject<'_>, cells: DVec3) -> Pairing<'a> {
 
 fn neighbours(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     let pairings = DVec3::AXES.map(|axis| apart(subject, axis));
-    let rng = draw.rng(NEIGHBOURS.id);
-    independent_pairs(
-        subject,
-        &pairings,
-        draw.samples(NEIGHBOUR_PAIRS),
-        rng,
-        "thresholds of neighbouring cells",
-    )
+    let n = draw.stream(NEIGHBOUR_PAIRS);
+    independent_pairs(&NEIGHBOURS, subject, draw, &pairings, n, "thresholds of neighbouring cells")
 }
 
 fn diagonals(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
@@ -86,14 +80,9 @@ fn diagonals(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
         .filter(|cells| cells.abs().element_sum() > 1.0)
         .map(|cells| apart(subject, cells))
         .collect();
-    let rng = draw.rng(DIAGONALS.id);
-    independent_pairs(
-        subject,
-        &pairings,
-        draw.samples_at_least(FAR_PAIRS),
-        rng,
-        "thresholds of cells that touch in an edge or corner",
-    )
+    let n = draw.stream_at_least(FAR_PAIRS, FAR_PAIRS);
+    let what = "thresholds of cells that touch in an edge or corner";
+    independent_pairs(&DIAGONALS, subject, draw, &pairings, n, what)
 }
 
 fn across_zero(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
@@ -108,14 +97,9 @@ fn across_zero(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
             [first.fragment, first.moved(DVec3::AXES[axis] * side, subject.precision).fragment]
         })
     };
-    let rng = draw.rng(ACROSS_ZERO.id);
-    independent_pairs(
-        subject,
-        &[0, 1, 2].map(pairing),
-        draw.samples_at_least(FAR_PAIRS),
-        rng,
-        "thresholds on the two sides of zero",
-    )
+    let n = draw.stream_at_least(FAR_PAIRS, FAR_PAIRS);
+    let pairings = [0, 1, 2].map(pairing);
+    independent_pairs(&ACROSS_ZERO, subject, draw, &pairings, n, "thresholds on the two sides of zero")
 }
 
 fn octaves(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
@@ -132,46 +116,66 @@ fn octaves(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
         let first = found.placed(-beyond / scale, subject.precision);
         [first.fragment, first.nearer(4.0).fragment]
     });
-    let rng = draw.rng(OCTAVES.id);
-    let seen = "thresholds of two octaves";
-    independent_pairs(subject, &[half_the_size, descendant], draw.samples_at_least(FAR_PAIRS), rng, seen)
+    let n = draw.stream_at_least(FAR_PAIRS, FAR_PAIRS);
+    let pairings = [half_the_size, descendant];
+    independent_pairs(&OCTAVES, subject, draw, &pairings, n, "thresholds of two octaves")
 }
 
 /// Tests `n` pairs of each kind for independence, no two pairs touching the same cell.
 fn independent_pairs(
+    claim: &Claim,
     subject: &Subject<'_>,
+    draw: &Draw,
     pairings: &[Pairing<'_>],
     n: usize,
-    mut rng: Xoshiro256PlusPlus,
     what: &str,
 ) -> Attempt<Trial> {
+    let mut rng = draw.rng(claim.id);
     let scenes = general_scenes();
-    let mut used = UsedCells::default();
+    let mut used = UsedCells::of(draw, 4 * n * pairings.len());
     let mut tests = Vec::new();
     let mut pooled = vec![0; PAIR_BINS * PAIR_BINS];
     for pairing in pairings {
-        let mut pairs: Vec<Fragment> = Vec::with_capacity(2 * n);
-        let mut place = DVec3::ZERO;
-        for draw in 0..n * DRAWS_A_SAMPLE {
-            if pairs.len() == 2 * n {
-                break;
-            }
-            if draw % DRAWS_A_PLACE == 0 {
-                place = placement(&mut rng);
-            }
-            let found = sighting(&scenes[draw % scenes.len()], &mut rng);
-            let pair = pairing(found.placed(place, subject.precision));
-            if used.claim(subject, &pair) {
-                pairs.extend(pair);
-            }
+        let mut table = vec![0; PAIR_BINS * PAIR_BINS];
+        for chunk in draw.chunks(n) {
+            let pairs = pairs(subject, pairing, &scenes, chunk, &mut used, &mut rng);
+            let values = subject.thresholds(&pairs);
+            reject_outsiders(subject, &pairs, &values)?;
+            let twos = values.chunks_exact(2).map(|pair| (pair[0], pair[1]));
+            let counts = correlation::pair_table(twos, PAIR_BINS);
+            table.iter_mut().zip(&counts).for_each(|(sum, count)| *sum += count);
         }
-        let values = subject.thresholds(&pairs);
-        reject_outsiders(subject, &pairs, &values)?;
-        let table = correlation::pair_table(values.chunks_exact(2).map(|pair| (pair[0], pair[1])), PAIR_BINS);
         pooled.iter_mut().zip(&table).for_each(|(sum, count)| *sum += count);
         tests.extend(chi_square::independence(&table, PAIR_BINS));
     }
     let n = pooled.iter().sum();
     let seen = format!("{what} depend on each other");
     Ok(Trial::worst_of(&tests, n, seen, Evidence::Pairs { side: PAIR_BINS, counts: pooled }))
+}
+
+/// Draws `n` pairs of one kind, fragments in twos, that touch no cell of an earlier pair.
+fn pairs(
+    subject: &Subject<'_>,
+    pairing: &Pairing<'_>,
+    scenes: &[Scene],
+    n: usize,
+    used: &mut UsedCells,
+    rng: &mut Xoshiro256PlusPlus,
+) -> Vec<Fragment> {
+    let mut pairs = Vec::with_capacity(2 * n);
+    let mut place = DVec3::ZERO;
+    for draw in 0..n * DRAWS_A_SAMPLE {
+        if pairs.len() == 2 * n {
+            break;
+        }
+        if draw % DRAWS_A_PLACE == 0 {
+            place = placement(rng);
+        }
+        let found = sighting(&scenes[draw % scenes.len()], rng);
+        let pair = pairing(found.placed(place, subject.precision));
+        if used.claim(subject, &pair) {
+            pairs.extend(pair);
+        }
+    }
+    pairs
 }

@@ -44,19 +44,25 @@ pub const QUARTER: Claim = Claim {
 fn parallel(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     let mut rng = draw.rng(PARALLEL.id);
     let wall = Scene::wall();
-    both_kept(
-        subject,
-        (0..LAYER_PAIRS).map(|_| samples(subject, &wall, draw.samples(LAYER_SAMPLES), &mut rng)),
-    )
+    let (pairs, n) = sizes(draw);
+    let mut used = UsedCells::of(draw, 4 * n * pairs);
+    both_kept(subject, (0..pairs).map(|_| samples(subject, &wall, n, &mut used, &mut rng)))
 }
 
 fn quarter(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     let mut rng = draw.rng(QUARTER.id);
     let scenes = general_scenes();
-    let n = draw.samples(LAYER_SAMPLES);
-    let pairs = (0..LAYER_PAIRS)
-        .map(|pair| behind(subject, &scenes[pair % scenes.len()], pair as u32 + 1, n, &mut rng));
+    let (pairs, n) = sizes(draw);
+    let mut used = UsedCells::of(draw, 4 * n * pairs);
+    let pairs = (0..pairs)
+        .map(|pair| behind(subject, &scenes[pair % scenes.len()], pair as u32 + 1, n, &mut used, &mut rng));
     both_kept(subject, pairs)
+}
+
+/// How many pairs of layers there are, and samples of each: two layers have only so many cells, so that the pairs grow in
+/// number.
+fn sizes(draw: &Draw) -> (usize, usize) {
+    (draw.groups(LAYER_PAIRS), draw.of_a_group().samples(LAYER_SAMPLES))
 }
 
 /// Tests thresholds in twos, group by group, for a law of pairs that is uniform over the square.
@@ -102,7 +108,13 @@ fn both_kept(subject: &Subject<'_>, groups: impl Iterator<Item = Vec<Fragment>>)
 }
 
 /// Fragments in twos, at the same place on two planes of constant z; no two pairs touch the same cell.
-fn samples(subject: &Subject<'_>, wall: &Scene, n: usize, rng: &mut Xoshiro256PlusPlus) -> Vec<Fragment> {
+fn samples(
+    subject: &Subject<'_>,
+    wall: &Scene,
+    n: usize,
+    used: &mut UsedCells,
+    rng: &mut Xoshiro256PlusPlus,
+) -> Vec<Fragment> {
     let place = placement(rng);
     let mut height = || (2.0 * uniform01(rng) - 1.0) * PLACEMENT;
     let near = height();
@@ -112,7 +124,7 @@ fn samples(subject: &Subject<'_>, wall: &Scene, n: usize, rng: &mut Xoshiro256Pl
             break far;
         }
     };
-    let mut used = UsedCells::default();
+    used.next_group();
     let mut samples = Vec::with_capacity(2 * n);
     for _ in 0..n * DRAWS_A_SAMPLE {
         if samples.len() == 2 * n {
@@ -141,6 +153,7 @@ fn behind(
     scene: &Scene,
     layer: u32,
     n: usize,
+    used: &mut UsedCells,
     rng: &mut Xoshiro256PlusPlus,
 ) -> Vec<Fragment> {
     let (camera, place) = (&scene.camera, placement(rng));
@@ -155,7 +168,7 @@ fn behind(
         half_u: side,
         half_v: (tilt - camera.forward).normalize().cross(side),
     };
-    let mut used = UsedCells::default();
+    used.next_group();
     let mut samples = Vec::with_capacity(2 * n);
     for _ in 0..n * DRAWS_A_SAMPLE {
         if samples.len() == 2 * n {

@@ -10,6 +10,7 @@ pub mod copies;
 pub mod coverage;
 pub mod degenerate;
 pub mod determinism;
+pub mod domain;
 pub mod exact;
 pub mod flips;
 pub mod frames;
@@ -26,6 +27,36 @@ pub mod stability;
 pub mod uniform;
 
 use super::claim::Claim;
+
+/// Families of claims, and single claims, that are about more than the values of cells: about what a threshold makes of two
+/// octaves, or about what changes while one looks.
+const BEYOND_A_HASH: &[&str] = &[
+    "range",
+    "exact",
+    "uniform.by_lerp_factor",
+    "uniform.without_cdf",
+    "coverage",
+    "stability",
+    "noise_scale",
+    "spectrum",
+    "flips",
+    "coordinates",
+    "domain",
+    "determinism",
+    "symmetry.derivatives",
+    "frames",
+    "planes",
+    "continuity",
+];
+
+/// Returns whether a claim of this identifier says nothing about a bare hash ([`Subject::of_hash`](super::Subject::of_hash)).
+#[must_use]
+pub fn is_beyond_a_hash(id: &str) -> bool {
+    let is_of = |family: &&str| {
+        id.strip_prefix(*family).is_some_and(|rest| matches!(rest.as_bytes(), [] | [b'.', ..]))
+    };
+    BEYOND_A_HASH.iter().any(|family| is_of(&family))
+}
 
 /// Every claim, in the order of the report.
 pub const ALL: &[Claim] = &[
@@ -95,4 +126,29 @@ pub const ALL: &[Claim] = &[
     copies::SYMMETRY,
     atoms::ZERO,
     atoms::ENDS,
+    domain::UNIFORM,
+    domain::NEIGHBOURS,
+    domain::LAYERS,
+    domain::CHANGES,
+    domain::CONTINUITY,
 ];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_family_is_about_cells_or_about_more() {
+        const ABOUT_CELLS: [&str; 7] =
+            ["uniform", "independence", "hash", "layers", "symmetry", "cells", "atoms"];
+        for claim in ALL {
+            let family = claim.id.split('.').next().unwrap_or_default();
+            let is_about_cells = ABOUT_CELLS.contains(&family);
+            let is_single = BEYOND_A_HASH.contains(&claim.id);
+            assert_eq!(is_beyond_a_hash(claim.id), !is_about_cells || is_single, "{}: say which", claim.id);
+        }
+        for entry in BEYOND_A_HASH {
+            assert!(ALL.iter().any(|claim| claim.id.starts_with(entry)), "{entry}");
+        }
+    }
+}

@@ -1,7 +1,7 @@
 //! Uniformity on one plane at a time: the biases of several planes add up here and do not cancel.
 
 use crate::check::evidence::NamedHistogram;
-use crate::check::input::{independent, rotation};
+use crate::check::input::{UsedCells, more_independent, rotation};
 use crate::check::judge::{histogram, uniformity};
 use crate::check::tolerance::BINS;
 use crate::check::trial::reject_outsiders;
@@ -70,11 +70,15 @@ fn planes(
     let mut tests: Vec<ChiSquare> = Vec::new();
     let mut evidence = Vec::new();
     let mut worst_bias = 0.0_f64;
-    for _ in 0..PLANES {
+    // A plane has only so many cells, so that the planes grow in number.
+    let (planes, n) = (draw.groups(PLANES), draw.of_a_group().samples(PLANE_SAMPLES));
+    let mut used = UsedCells::of(draw, 2 * n * planes);
+    for _ in 0..planes {
+        used.next_group();
         let turn = turn(&mut rng);
         // One place for all of a plane's samples: each plane has one distance from the origin.
         let scene = [turned(&wall, turn)];
-        let samples = independent(subject, &scene, draw.samples(PLANE_SAMPLES), usize::MAX, &mut rng);
+        let samples = more_independent(subject, &scene, n, usize::MAX, &mut used, &mut rng);
         let values = subject.thresholds(&samples);
         reject_outsiders(subject, &samples, &values)?;
         let counts = histogram(values);
@@ -85,7 +89,9 @@ fn planes(
             worst_bias = bias;
         }
         let distance = samples.first().map_or(f64::NAN, |sample| sample.footprint.position.dot(turn.z_axis));
-        evidence.push(NamedHistogram::new(format!("{label}{distance:.3}"), &counts));
+        if evidence.len() < PLANES {
+            evidence.push(NamedHistogram::new(format!("{label}{distance:.3}"), &counts));
+        }
     }
     let Some(sum) =
         tests.into_iter().reduce(|a, b| ChiSquare::new(a.statistic + b.statistic, a.dof + b.dof, a.n + b.n))

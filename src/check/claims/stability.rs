@@ -53,27 +53,31 @@ fn translate_over(subject: &Subject<'_>, scenes: Vec<Scene>, draw: &Draw, claim:
     for scene in scenes {
         for along_x in [true, false] {
             for shift in SHIFTS {
-                let (mut before, mut after) = (Vec::new(), Vec::new());
+                let samples = draw.stream(SHIFT_SAMPLES);
+                let mut changed = 0;
                 let mut expected = Changes::default();
-                for _ in 0..draw.samples(SHIFT_SAMPLES) {
-                    // A fresh place for every sample: the closed form is about phases that are all equally likely.
-                    let place = placement(&mut rng) * WIDE;
-                    let here = sighting(&scene, &mut rng).placed(place, subject.precision);
-                    let footprint = here.fragment.footprint;
-                    let motion = if along_x { footprint.dpdx } else { footprint.dpdy } * shift;
-                    expected.add(subject, &footprint, motion);
-                    before.push(here.fragment);
-                    after.push(here.moved(motion, subject.precision).fragment);
+                for chunk in draw.chunks(samples) {
+                    let (mut before, mut after) = (Vec::new(), Vec::new());
+                    for _ in 0..chunk {
+                        // A fresh place for every sample: the closed form is about phases that are all equally likely.
+                        let place = placement(&mut rng) * WIDE;
+                        let here = sighting(&scene, &mut rng).placed(place, subject.precision);
+                        let footprint = here.fragment.footprint;
+                        let motion = if along_x { footprint.dpdx } else { footprint.dpdy } * shift;
+                        expected.add(subject, &footprint, motion);
+                        before.push(here.fragment);
+                        after.push(here.moved(motion, subject.precision).fragment);
+                    }
+                    let (old, new) = (subject.thresholds(&before), subject.thresholds(&after));
+                    reject_outsiders(subject, &before, &old)?;
+                    reject_outsiders(subject, &after, &new)?;
+                    changed += old.iter().zip(&new).filter(|(a, b)| a != b).count();
                 }
-                let (old, new) = (subject.thresholds(&before), subject.thresholds(&after));
-                reject_outsiders(subject, &before, &old)?;
-                reject_outsiders(subject, &after, &new)?;
-                let changed = old.iter().zip(&new).filter(|(a, b)| a != b).count();
                 let test = expected.compared(changed as u64);
                 if test.p < worst.0 {
                     worst = (test.p, test.z);
                 }
-                let count = before.len() as f64;
+                let count = samples as f64;
                 let (mean, sigma) = (expected.mean, expected.variance().sqrt() / count);
                 points.push(ComparedShare {
                     series: format!("{}, along {}", scene.name, if along_x { "x" } else { "y" }),
@@ -83,7 +87,7 @@ fn translate_over(subject: &Subject<'_>, scenes: Vec<Scene>, draw: &Draw, claim:
                     sigma,
                 });
                 effect = effect.max((changed as f64 - mean).abs() / count);
-                n += before.len() as u64;
+                n += samples as u64;
                 tests += 1;
             }
         }

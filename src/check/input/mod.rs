@@ -2,6 +2,7 @@
 
 pub(crate) mod block;
 pub mod cell;
+pub(crate) mod everywhere;
 pub mod motion;
 pub mod patch;
 pub mod sample;
@@ -12,6 +13,7 @@ pub(crate) use cell::{at_scale, draw_cell, draw_octave, in_cell, numerator};
 pub(crate) use motion::Motion;
 pub(crate) use patch::{Patch, Start, rotation};
 pub(crate) use sample::{
-    Sighting, UsedCells, fragments_everywhere, general_scenes, independent, placed, placement, sighting,
+    Sighting, UsedCells, fragments_everywhere, general_scenes, independent, more_independent, placed,
+    placement, sighting,
 };
 pub(crate) use view::{tangents, tilted, turned, zoomed};

@@ -9,9 +9,17 @@ use crate::check::{Draw, Subject};
 use crate::scene::{Camera, Fragment, Rectangle, Scene};
 use crate::stats::seed::uniform01;
 use crate::threshold::footprint::Footprint;
+use core::hash::BuildHasher;
 use glam::{DVec2, DVec3, dvec2, dvec3};
 use rand::rngs::Xoshiro256PlusPlus;
-use rustc_hash::FxHashSet;
+use rustc_hash::{FxBuildHasher, FxHashSet};
+
+/// Bits of the table of used cells for each cell that it will hold: at most one sample in eight, and of pairs one in four, is
+/// drawn again.
+const BITS_A_CELL: usize = 8;
+
+/// Bits of the largest table of used cells: a quarter of a gigabyte, one a thread.
+const MOST_BITS: usize = 1 << 31;
 
 /// Draws a place for the object: how far its points are moved from where the scene has them, in object units.
 pub fn placement(rng: &mut Xoshiro256PlusPlus) -> DVec3 {
@@ -97,10 +105,40 @@ pub fn placed(fragment: &Fragment, by: DVec3, precision: Precision) -> Fragment 
 }
 
 /// The cells that earlier samples have used.
-#[derive(Debug, Default)]
-pub struct UsedCells(FxHashSet<[i64; 3]>);
+#[derive(Debug)]
+pub enum UsedCells {
+    /// Each cell, as long as all fit into memory.
+    Each(FxHashSet<[i64; 3]>),
+    /// One bit for each value of a hash of cells, in words of 64: two cells may share a bit, and the second is then taken for
+    /// used. So no cell is ever used twice, whatever the number of samples, in constant memory.
+    Bits(Vec<u64>),
+}
+
+impl Default for UsedCells {
+    fn default() -> Self {
+        Self::Each(FxHashSet::default())
+    }
+}
 
 impl UsedCells {
+    /// Makes what tells apart the cells of all samples of a draw, `cells` of them at most.
+    #[must_use]
+    pub fn of(draw: &Draw, cells: usize) -> Self {
+        if draw.doublings == 0 {
+            return Self::default();
+        }
+        let bits = cells.saturating_mul(BITS_A_CELL).clamp(64, MOST_BITS).next_power_of_two();
+        Self::Bits(vec![0; bits / 64])
+    }
+
+    /// Begins a group that is judged on its own. What has each cell forgets those of the group before; a table of bits keeps
+    /// them, since of the many groups of a grown claim more would share cells.
+    pub fn next_group(&mut self) {
+        if let Self::Each(used) = self {
+            used.clear();
+        }
+    }
+
     /// Claims the cells of a group of fragments or footprints that belong together; returns false, and claims none, if an
     /// earlier group has one of them.
     ///
@@ -113,11 +151,27 @@ impl UsedCells {
                 [nominal.coarse_cell, nominal.fine_cell].map(|cell| cell.to_array().map(|c| c as i64))
             })
             .collect();
-        let fresh = !cells.iter().any(|cell| self.0.contains(cell));
-        if fresh {
-            self.0.extend(cells);
+        match self {
+            Self::Each(used) => {
+                let fresh = !cells.iter().any(|cell| used.contains(cell));
+                if fresh {
+                    used.extend(cells);
+                }
+                fresh
+            }
+            Self::Bits(words) => {
+                let place = |cell: &[i64; 3]| {
+                    let hash = FxBuildHasher.hash_one(cell);
+                    ((hash >> 6) as usize & (words.len() - 1), 1_u64 << (hash & 63))
+                };
+                let places: Vec<(usize, u64)> = cells.iter().map(place).collect();
+                let fresh = !places.iter().any(|&(word, bit)| words[word] & bit != 0);
+                if fresh {
+                    places.into_iter().for_each(|(word, bit)| words[word] |= bit);
+                }
+                fresh
+            }
         }
-        fresh
     }
 }
 
@@ -133,8 +187,20 @@ pub fn independent(
     draws_a_place: usize,
     rng: &mut Xoshiro256PlusPlus,
 ) -> Vec<Fragment> {
+    more_independent(subject, scenes, n, draws_a_place, &mut UsedCells::default(), rng)
+}
+
+/// The same, of which none touches a cell of the samples before them either.
+#[must_use]
+pub fn more_independent(
+    subject: &Subject<'_>,
+    scenes: &[Scene],
+    n: usize,
+    draws_a_place: usize,
+    used: &mut UsedCells,
+    rng: &mut Xoshiro256PlusPlus,
+) -> Vec<Fragment> {
     let mut samples = Vec::with_capacity(n);
-    let mut used = UsedCells::default();
     let mut place = DVec3::ZERO;
     for draw in 0..n.saturating_mul(DRAWS_A_SAMPLE) {
         if samples.len() == n {
@@ -190,6 +256,21 @@ mod tests {
             .map(|s| subject.nominal(&s.footprint).coarse_cell.to_array().map(|c| c as i64))
             .collect();
         assert_eq!(cells.len(), 5000);
+    }
+
+    #[test]
+    fn a_table_of_bits_never_gives_a_cell_twice() {
+        let subject = Subject::hashed("paper", Precision::F32, HashedAlpha::listing(Variant::Isotropic));
+        let mut rng = seed::rng("sample.bits", 0);
+        let draw = Draw { doublings: 1, ..Draw::default() };
+        let mut bits = UsedCells::of(&draw, 8000);
+        let mut each = UsedCells::default();
+        for _ in 0..4 {
+            let samples = more_independent(&subject, &general_scenes(), 1000, 100, &mut bits, &mut rng);
+            assert_eq!(samples.len(), 1000);
+            assert!(samples.iter().all(|&sample| each.claim(&subject, &[sample])));
+        }
+        assert!(matches!(UsedCells::of(&Draw::default(), 8000), UsedCells::Each(_)));
     }
 
     #[test]

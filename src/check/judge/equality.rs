@@ -28,12 +28,12 @@ pub(crate) fn equality(
 ) -> Trial {
     let found: Vec<usize> = (0..points.len()).filter(|&at| changed(at, asked).is_some()).collect();
     let example = found.first().map_or_else(String::new, |&first| {
-        let [shown] = shrunk(&[points[first]], subject.precision, |candidates| {
+        let [shown] = shrunk(subject, &[points[first]], |candidates| {
             let candidates = candidates.as_flattened();
             let asked = again(first, candidates);
             (0..candidates.len()).map(|at| changed(at, &asked).is_some()).collect()
         });
-        let asked = again(first, &[shown]);
+        let asked = subject.unnoticed(|| again(first, &[shown]));
         let (old, new) = (asked[0][0], changed(0, &asked).unwrap_or(asked[0][0]));
         let [old, new] = [old, new].map(|value| number(value, subject.precision));
         format!("{old} at {}, and then {new}", row(&shown, subject.precision))

@@ -3,6 +3,8 @@
 pub mod correlations;
 pub mod counts;
 pub mod equality;
+pub(crate) mod pools;
+pub(crate) mod pops;
 pub mod powers;
 pub mod replicate_means;
 pub mod shares;

@@ -11,7 +11,7 @@ use crate::threshold::two_scale::Variant;
 use rustc_hash::FxHashMap;
 
 /// The number of thresholds that change, of samples that are independent but for the octaves that they choose.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(crate) struct Changes {
     /// The expected number.
     pub(crate) mean: f64,
@@ -42,6 +42,17 @@ impl Changes {
                 *sum += decided;
                 *squares += decided * decided;
             }
+        }
+    }
+
+    /// Adds other samples.
+    pub(crate) fn merge(&mut self, other: &Self) {
+        self.mean += other.mean;
+        self.alone += other.alone;
+        for (interval, [sum, squares]) in &other.choices {
+            let [all, all_squares] = self.choices.entry(*interval).or_default();
+            *all += sum;
+            *all_squares += squares;
         }
     }
 

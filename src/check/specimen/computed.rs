@@ -8,11 +8,11 @@ use super::ALL;
 use super::defect::Specimen;
 use super::matrix::{KillMatrix, Rejections};
 use crate::check::claim::Claim;
-use crate::check::{Budget, Draw, Standing, claims, run_claims};
+use crate::check::{Budget, Draw, Reach, Standing, claims, run_claims};
 use rayon::prelude::*;
 
 /// The draw by which the committed matrix is computed.
-pub const DRAW: Draw = Draw { seed: 0, budget: Budget::Quick, round: 0 };
+pub const DRAW: Draw = Draw { seed: 0, budget: Budget::Quick, round: 0, doublings: 0, reach: Reach::Whole };
 
 /// Computes the matrix on all threads, and takes over from `known` the entries whose specimen and claim both have
 /// a place there.

@@ -11,6 +11,7 @@ mod clamp;
 pub mod computed;
 mod defect;
 mod derivative;
+mod domain;
 mod frame;
 mod hash;
 mod ideal;
@@ -27,7 +28,7 @@ pub use defect::Specimen;
 pub use ideal::{Ideal, ideal};
 
 /// The specimens, family by family.
-const FAMILIES: [&[Specimen]; 13] = [
+const FAMILIES: [&[Specimen]; 14] = [
     input::FAMILY,
     derivative::FAMILY,
     octave::FAMILY,
@@ -41,6 +42,7 @@ const FAMILIES: [&[Specimen]; 13] = [
     bias::FAMILY,
     repair::FAMILY,
     frame::FAMILY,
+    domain::FAMILY,
 ];
 
 /// Every specimen, in the order of the kill matrix.

@@ -78,8 +78,9 @@ pub(in crate::render) fn plain(key: &str, message: &str) -> String {
     if key.is_empty() { text } else { format!("`{key}`: {text}") }
 }
 
-/// Asks for the word that was likely meant; nothing where none is near.
-pub(in crate::render) fn likely(wrong: &str, known: &[&str]) -> String {
+/// Asks for the word that was likely meant, with a space in front; nothing where none is near.
+#[must_use]
+pub fn likely(wrong: &str, known: &[&str]) -> String {
     nearest(wrong, known).map_or_else(String::new, |near| format!(" Did you mean `{near}`?"))
 }
 

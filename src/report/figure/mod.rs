@@ -17,6 +17,7 @@
 //! | [`front`] | a value against the time that it costs, and the points that no other one beats |
 //! | [`growth`] | costs against a size |
 //! | [`kill_matrix`] | which claims reject which specimens |
+//! | [`until_failure`] | how many samples it takes until a claim fails |
 
 pub mod before_and_after;
 pub mod cdf_family;
@@ -28,6 +29,7 @@ pub mod kill_matrix;
 pub mod noise;
 pub mod planes;
 pub mod stability;
+pub mod until_failure;
 pub mod validity;
 
 mod raster;

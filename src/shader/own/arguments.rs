@@ -5,6 +5,7 @@ use super::isolated::isolated;
 use super::{Binding, Input, OwnShader, ShaderError, Value};
 use crate::scene::fragment::Fragment;
 use crate::shader::interpreter::{Column, DeviceModel, Program, Stopped, Undefined, Values};
+use crate::threshold::robust::scales;
 use core::fmt::Write as _;
 
 impl Input {
@@ -22,6 +23,7 @@ impl Input {
             Self::Lod => float(fragment.lod),
             Self::Frame => fragment.frame,
             Self::Layer => fragment.layer,
+            Self::Cell => scales::only_cell(footprint).words()[component],
             Self::Constant(_) => 0,
         }
     }
@@ -29,6 +31,7 @@ impl Input {
     /// The number of words that differ from fragment to fragment.
     const fn size(self) -> usize {
         match self {
+            Self::Cell => 4,
             Self::Position | Self::Dpdx | Self::Dpdy => 3,
             Self::Pixel | Self::Texcoord => 2,
             Self::Lod | Self::Frame | Self::Layer => 1,
@@ -69,10 +72,18 @@ impl OwnShader {
                 Input::Frame | Input::Layer => {
                     columns.push(Values::U32(fragments.iter().map(|f| input.word(f, 0)).collect()));
                 }
-                _ => columns.extend((0..input.size()).map(|component| {
-                    let value = |fragment| f32::from_bits(input.word(fragment, component));
-                    Values::F32(fragments.iter().map(value).collect())
-                })),
+                Input::Cell => {
+                    let cells: Vec<[u32; 4]> =
+                        fragments.iter().map(|f| scales::only_cell(&f.footprint).words()).collect();
+                    let column = |word: usize| cells.iter().map(|words| words[word]).collect();
+                    columns.extend((0..input.size()).map(|word| Values::U32(column(word))));
+                }
+                Input::Position | Input::Dpdx | Input::Dpdy | Input::Pixel | Input::Texcoord | Input::Lod => {
+                    columns.extend((0..input.size()).map(|component| {
+                        let value = |fragment| f32::from_bits(input.word(fragment, component));
+                        Values::F32(fragments.iter().map(value).collect())
+                    }))
+                }
             }
         }
         columns
@@ -89,14 +100,52 @@ impl OwnShader {
         fragments: &[Fragment],
         model: &DeviceModel,
     ) -> Result<Vec<f32>, ShaderError> {
+        match self.run(program, fragments, model)? {
+            Some(Values::F32(thresholds)) => Ok(thresholds),
+            _ => Err(self.another_program()),
+        }
+    }
+
+    /// Whether it is a hash: a function from one `vec4<u32>`, three indices of a cell and its octave, to `u32`.
+    #[must_use]
+    pub fn is_hash(&self) -> bool {
+        matches!(self.bindings.as_slice(), [Binding { input: Input::Cell, .. }])
+    }
+
+    /// Runs a hash, made ready by [`OwnShader::program`], on the coarse cell of every fragment.
+    ///
+    /// # Errors
+    ///
+    /// [`ShaderError`]: a loop that does not end, with its place; a function that is no hash.
+    pub fn hashes(
+        &self,
+        program: &Program,
+        fragments: &[Fragment],
+        model: &DeviceModel,
+    ) -> Result<Vec<u32>, ShaderError> {
+        match self.run(program, fragments, model)? {
+            Some(Values::U32(hashes)) => Ok(hashes),
+            _ => Err(self.another_program()),
+        }
+    }
+
+    fn another_program(&self) -> ShaderError {
+        let message = "it is the program of another function".to_owned();
+        ShaderError { file: self.file.clone(), place: None, message }
+    }
+
+    /// Runs the function; its result is the last of the values that come back.
+    fn run(
+        &self,
+        program: &Program,
+        fragments: &[Fragment],
+        model: &DeviceModel,
+    ) -> Result<Option<Values>, ShaderError> {
         let values = self.columns(fragments);
         let columns: Vec<_> = values.iter().map(as_column).collect();
         let fail = |place, message| ShaderError { file: self.file.clone(), place, message };
         match program.run(&columns, fragments.len(), model) {
-            Ok(mut results) => match results.pop() {
-                Some(Values::F32(thresholds)) => Ok(thresholds),
-                _ => Err(fail(None, "it is the program of another function".to_owned())),
-            },
+            Ok(mut results) => Ok(results.pop()),
             Err(stopped) => {
                 let place = match stopped {
                     Stopped::Endless { span, .. } => self.place(span),
@@ -167,6 +216,10 @@ impl OwnShader {
             let _ = match input {
                 Input::Frame | Input::Layer => write!(call, "word({first}u), "),
                 Input::Constant(constant) => write!(call, "{}, ", constant.wgsl()),
+                Input::Cell => {
+                    let words: Vec<_> = (first..first + 4).map(|k| format!("word({k}u)")).collect();
+                    write!(call, "vec4<u32>({}), ", words.join(", "))
+                }
                 _ if numbers.len() == 1 => write!(call, "{}, ", numbers[0]),
                 _ => write!(call, "vec{}<f32>({}), ", numbers.len(), numbers.join(", ")),
             };

@@ -162,6 +162,27 @@ pub fn assembled(name: &str, options: impl Into<ShaderOptions>) -> Result<OwnSha
 }
 
 impl OwnShader {
+    /// Returns the value of the parameter `hash_scale`; nothing where the function has no such parameter.
+    #[must_use]
+    pub fn hash_scale(&self) -> Option<f32> {
+        self.bindings
+            .iter()
+            .filter(|binding| binding.name == "hash_scale")
+            .find_map(|binding| binding.input.as_f32())
+    }
+
+    /// The same with the value of the parameter `hash_scale` so many times as large.
+    #[must_use]
+    pub fn rescaled(&self, times: f64) -> Self {
+        let mut shader = self.clone();
+        for binding in shader.bindings.iter_mut().filter(|binding| binding.name == "hash_scale") {
+            if let Some(value) = binding.input.as_f32() {
+                binding.input = Input::Constant(Value::F32((f64::from(value) * times) as f32).into());
+            }
+        }
+        shader
+    }
+
     /// Says that something is wrong with a part of the module.
     #[must_use]
     pub fn error_at(&self, span: Span, message: String) -> ShaderError {

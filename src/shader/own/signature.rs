@@ -1,7 +1,7 @@
 //! The parameters that a user's function may have, and where their values come from.
 
 use super::error::Fault;
-use super::setting::{Constant, type_name};
+use super::setting::{Constant, Value, type_name};
 use naga::{Function, Handle, Module, TypeInner};
 use std::collections::BTreeMap;
 
@@ -24,8 +24,23 @@ pub enum Input {
     Frame,
     /// `layer`: the index of the surface along the line of sight.
     Layer,
+    /// The only parameter of a hash: the three indices of [the coarse cell](crate::threshold::robust::scales::only_cell) and its
+    /// octave as one word.
+    Cell,
     /// The same in every fragment: `hash_scale`, and every parameter of another name.
     Constant(Constant),
+}
+
+impl Input {
+    /// Returns the value of a parameter that is one number and the same in every fragment.
+    #[must_use]
+    pub fn as_f32(self) -> Option<f32> {
+        let Self::Constant(constant) = self else { return None };
+        match constant.components() {
+            &[Value::F32(value)] => Some(value),
+            _ => None,
+        }
+    }
 }
 
 /// A parameter of the function and the source of its value.
@@ -53,7 +68,8 @@ pub(super) fn allowed() -> String {
     let list: Vec<_> = FRAGMENT.iter().map(|(name, wgsl_type, _)| format!("{name}: {wgsl_type}")).collect();
     format!(
         "it returns f32 (float), and its parameters are any of {}, hash_scale: f32, in any order, and numbers or \
-         vectors of other names whose value is given by --set NAME=VALUE",
+         vectors of other names whose value is given by --set NAME=VALUE; or it is a hash, from one vec4<u32> (three indices of \
+         a cell and its octave) to u32",
         list.join(", ")
     )
 }
@@ -73,6 +89,13 @@ pub(super) fn bind(
     let function = &module.functions[function];
     let fault = |message: String| Fault::new(message).at(at.clone());
     let result = function.result.as_ref().map_or("nothing".to_owned(), |result| described(module, result.ty));
+    if let [only] = function.arguments.as_slice()
+        && result == "u32"
+        && described(module, only.ty) == "vec4<u32>"
+    {
+        let name = only.name.clone().unwrap_or_else(|| "cell".to_owned());
+        return Ok(vec![Binding { name, input: Input::Cell }]);
+    }
     if result != "f32" {
         return Err(fault(format!("`{name}` returns {result}; {}", allowed())));
     }

@@ -75,6 +75,12 @@ impl HashKind {
         self.entry().name
     }
 
+    /// Whether it is the same in every precision and on every machine.
+    #[must_use]
+    pub const fn is_exact(self) -> bool {
+        self.entry().is_exact
+    }
+
     /// Whether it reads the octave of a cell; if not, equal coordinates in two octaves have one value.
     #[must_use]
     pub const fn reads_octave(self) -> bool {

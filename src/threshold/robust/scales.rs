@@ -121,6 +121,14 @@ pub fn nested_cell<R: Real>(position: R::Vec3, octave: [i32; 3], repairs: Repair
     Cell { index: index.into(), octave: word }
 }
 
+/// Returns the one cell whose hash is looked at where a hash is on trial alone: that of the coarse octave of an isotropic
+/// footprint of one pixel, between whole numbers, with its octave. Not in the paper.
+#[must_use]
+pub fn only_cell<R: Real>(footprint: &Footprint<R>) -> Cell<R> {
+    let found = robust_scales(Variant::Isotropic, footprint, R::from_f64(1.0), Repairs::ALL);
+    nested_cell::<R>(footprint.position, found.octave, Repairs::ALL.without(Repair::NestedPhase))
+}
+
 /// Returns the weight of Listing 2, in [0, 1]: how far a point of the box of octaves lies from its first corner, as a
 /// share of the sum of its distances to both.
 #[inline(always)]
