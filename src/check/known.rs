@@ -241,12 +241,14 @@ pub const OF_THE_LISTINGS: &[Known] = &[
         "hash.octave_copies",
         LISTINGS,
         BOTH,
+        RestsOn::NoOctaveInHash,
         "the paper's hash does not read the octave: cells of the same index have one threshold in all octaves",
     ),
     fails(
         "hash.octave_avalanche",
         LISTINGS,
         BOTH,
+        RestsOn::NoOctaveInHash,
         "the paper's hash does not read the octave: no bit of it turns over any bit of the threshold",
     ),
     fails(

@@ -12,6 +12,9 @@ use glam::DVec3;
 /// Cells in which each bit is turned over: an error of 0.075 in a share of turned bits shows.
 const TURNED_CELLS: usize = 1 << 13;
 
+/// Most of those cells, whatever budget and round: each has 36 others.
+const MOST_TURNED_CELLS: usize = 1 << 16;
+
 /// Bits of an index that are turned over: as far as a repeat counts, below [`VIEW`] cells.
 const INDEX_BITS: u32 = VIEW.ilog2();
 
@@ -122,7 +125,7 @@ struct Cell {
 
 fn avalanche(subject: &Subject<'_>, draw: &Draw, claim: &str, bits: &[Turned]) -> Attempt<Trial> {
     let mut rng = draw.rng(claim);
-    let n = draw.samples(TURNED_CELLS);
+    let n = draw.samples(TURNED_CELLS).min(MOST_TURNED_CELLS);
     let mut footprints: Vec<Footprint<f64>> = Vec::with_capacity(n * (bits.len() + 1));
     for _ in 0..n {
         let mut within = |[low, high]: [f64; 2]| (low + (high - low) * seed::uniform01(&mut rng)).floor();

@@ -20,6 +20,9 @@ use rustc_hash::FxHashSet;
 /// space, has four pairs of them or more.
 const SET_CELLS: usize = 1 << 16;
 
+/// Most cells of such a set, whatever budget and round: pairs grow with the square.
+const MOST_SET_CELLS: usize = 1 << 17;
+
 /// Cells along each side of the cube around one place that is looked at in each octave.
 const NEST_SIDE: usize = 20;
 
@@ -241,13 +244,18 @@ fn set_in(
     evaluated(subject, &set)
 }
 
+/// Cells of a set.
+fn set_cells(draw: &Draw) -> usize {
+    draw.samples_at_least(SET_CELLS).min(MOST_SET_CELLS)
+}
+
 /// The sets of one octave each: a layer of each two axes, and a cube; with the axis of the layer.
 fn sets(
     subject: &Subject<'_>,
     draw: &Draw,
     rng: &mut Xoshiro256PlusPlus,
 ) -> Attempt<Vec<(Option<usize>, Vec<Seen>)>> {
-    let cells = draw.samples_at_least(SET_CELLS);
+    let cells = set_cells(draw);
     let mut sets = Vec::new();
     for axis in 0..3 {
         let mut sides = [2 * i64::from(VIEW); 3];
@@ -294,7 +302,7 @@ fn symmetry(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
 /// The share of cells that a relation within an octave has to hold for to be among the candidates, at the largest distance: there
 /// a quarter of the cells of a layer, and an eighth of those of a cube, have their images in the set.
 fn sure_share(draw: &Draw) -> f64 {
-    let cells = draw.samples_at_least(SET_CELLS) as f64;
+    let cells = set_cells(draw) as f64;
     let side = 2.0 * f64::from(VIEW);
     SURE_PAIRS / (0.25 * cells * cells / (side * side))
 }
