@@ -9,7 +9,7 @@ use crate::stats::{binomial, power, seed};
 use crate::threshold::footprint::Footprint;
 use glam::DVec3;
 
-/// Cells in which each bit is turned over: an error of 0.075 in a share of turned bits shows.
+/// Cells in which each bit is turned over: an error of 0.056 in a share of turned bits shows.
 const TURNED_CELLS: usize = 1 << 13;
 
 /// Most of those cells, whatever budget and round: each has 36 others.

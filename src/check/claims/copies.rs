@@ -17,7 +17,7 @@ use rand::rngs::Xoshiro256PlusPlus;
 use rustc_hash::FxHashSet;
 
 /// Cells of each of the four sets of one octave: every shift below [`VIEW`] in a plane of two axes, or below [`VIEW_DEPTH`] in
-/// space, has four pairs of them or more.
+/// space, has sixteen pairs of them or more.
 const SET_CELLS: usize = 1 << 16;
 
 /// Most cells of such a set, whatever budget and round: pairs grow with the square.
@@ -52,7 +52,7 @@ const SURE_PAIRS: f64 = 11.23;
 const EQUALS_A_CELL: usize = 2;
 
 /// Cells around the origin along every axis, to both sides, among which relations are confirmed: the cube that was explored is a
-/// hundredth of a per cent of them.
+/// fortieth of a per cent of them.
 const FRESH: f64 = 8.0 * SPREAD;
 
 /// Shifts within an octave.
