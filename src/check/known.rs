@@ -238,6 +238,20 @@ pub const OF_THE_LISTINGS: &[Known] = &[
         "hash3D in f32 has the variety of some 4000 values: two cells in 4000 have the same threshold",
     ),
     fails(
+        "hash.octave_copies",
+        LISTINGS,
+        BOTH,
+        RestsOn::NoOctaveInHash,
+        "the paper's hash does not read the octave: cells of the same index have one threshold in all octaves",
+    ),
+    fails(
+        "hash.octave_avalanche",
+        LISTINGS,
+        BOTH,
+        RestsOn::NoOctaveInHash,
+        "the paper's hash does not read the octave: no bit of it turns over any bit of the threshold",
+    ),
+    fails(
         "hash.lags",
         LISTINGS,
         F32,

@@ -2,15 +2,36 @@
 
 use crate::check::input::fragments_everywhere;
 use crate::check::judge::equality;
-use crate::check::{Attempt, Claim, Draw, Promise, Subject, Trial, Verdict};
+use crate::check::{Attempt, Claim, Conclusion, Draw, Promise, Subject, Trial, Verdict};
 use crate::scene::Fragment;
+use crate::stats::seed;
 use crate::threshold::footprint::Footprint;
+use glam::{DVec3, dvec2};
+use rand::rngs::Xoshiro256PlusPlus;
 
 /// Points that are evaluated one by one.
 const ALONE: usize = 64;
 
 /// Fragments of a second pass that are evaluated together: neither a power of two nor a row of the first.
 const PIECE: usize = 37;
+
+/// World and eye coordinates that are drawn in place of others lie up to this far from zero along every axis, in object units.
+const ARGUMENT_REACH: f64 = 1024.0;
+
+/// The pixels among which one is drawn in place of another, along each axis of the screen.
+const ARGUMENT_PIXELS: [f64; 2] = [0.0, 8192.0];
+
+/// The texture coordinates among which one is drawn: repeated and mirrored textures have those outside [0, 1].
+const ARGUMENT_TEXCOORDS: [f64; 2] = [-8.0, 8.0];
+
+/// The levels of detail among which one is drawn: magnified, and all levels of a texture of 16 384 texels.
+const ARGUMENT_LODS: [f64; 2] = [-1.0, 14.0];
+
+/// Layers among which one is drawn, from the nearest.
+const ARGUMENT_LAYERS: f64 = 17.0;
+
+/// Frames, or periods of the strata, of which one is drawn for half of the points; for the others all are alike.
+const ARGUMENT_FRAMES: u32 = 64;
 
 /// A depth pass and the colour pass after it decide alike.
 pub const TWO_PASSES: Claim = Claim {
@@ -31,6 +52,17 @@ pub const DERIVATIVES: Claim = Claim {
     expected: Verdict::Consistent,
     promise: Some(Promise::Linear(8.0e-3)),
     run: derivatives,
+};
+
+/// What a threshold is given beside the footprint says nothing.
+pub const ARGUMENTS: Claim = Claim {
+    id: "determinism.arguments",
+    anchor: "§5 (object-space coordinates alone); not in the paper",
+    statement: "layer, level of detail, texture coordinates, pixel, world and eye coordinates and the frame, each changed alone, \
+                change no bit of the threshold; of the frames only those of one stratum are compared",
+    expected: Verdict::Consistent,
+    promise: Some(Promise::Linear(8.0e-3)),
+    run: arguments,
 };
 
 fn two_passes(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
@@ -80,4 +112,68 @@ fn derivatives(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     };
     let when = "with its derivatives exchanged or turned around";
     Ok(equality(subject, &points, &asked(&points), |_, points| asked(points), when))
+}
+
+/// What a fragment has beside its footprint, by name: how to take it over from another one.
+const BESIDE_FOOTPRINT: [(&str, fn(&mut Fragment, &Fragment)); 7] = [
+    ("layer", |of, other| of.layer = other.layer),
+    ("level of detail", |of, other| of.lod = other.lod),
+    ("texture coordinates", |of, other| of.texcoord = other.texcoord),
+    ("pixel", |of, other| of.pixel = other.pixel),
+    ("world coordinates", |of, other| of.world = other.world),
+    ("eye coordinates", |of, other| of.eye = other.eye),
+    ("frame", |of, other| of.frame = other.frame),
+];
+
+/// A fragment of the same footprint with all else drawn anew, far beyond what the scenes have.
+fn drawn_anew(subject: &Subject<'_>, point: &Fragment, rng: &mut Xoshiro256PlusPlus) -> Fragment {
+    let mut part = || seed::uniform01(rng);
+    let mut within = |[low, high]: [f64; 2]| low + (high - low) * part();
+    let mut place = || DVec3::from_array([0; 3].map(|_| within([-ARGUMENT_REACH, ARGUMENT_REACH])));
+    let (world, eye) = (place(), place());
+    let periods = u32::MAX / subject.frames;
+    // One half among the first frames, the other anywhere.
+    let last = if within([0.0, 1.0]) < 0.5 { ARGUMENT_FRAMES.min(periods) } else { periods };
+    Fragment {
+        footprint: point.footprint,
+        world,
+        eye,
+        pixel: dvec2(within(ARGUMENT_PIXELS).floor() + 0.5, within(ARGUMENT_PIXELS).floor() + 0.5),
+        texcoord: dvec2(within(ARGUMENT_TEXCOORDS), within(ARGUMENT_TEXCOORDS)),
+        lod: within(ARGUMENT_LODS),
+        frame: (within([0.0, 1.0]) * f64::from(last)) as u32 * subject.frames,
+        layer: within([0.0, ARGUMENT_LAYERS]) as u32,
+    }
+}
+
+fn arguments(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
+    // In a stratum of its own a threshold is another one.
+    let first = |point: Fragment| Fragment { frame: 0, ..point };
+    let points: Vec<Fragment> =
+        fragments_everywhere(subject, draw, ARGUMENTS.id).into_iter().map(first).collect();
+    let mut rng = draw.rng(ARGUMENTS.id);
+    let others: Vec<Fragment> = points.iter().map(|point| drawn_anew(subject, point, &mut rng)).collect();
+    let once = subject.thresholds(&points);
+    let mut all = None;
+    for (name, take) in BESIDE_FOOTPRINT {
+        let with = |point: &Fragment, other: &Fragment| {
+            let mut point = *point;
+            take(&mut point, other);
+            point
+        };
+        let changed: Vec<Fragment> =
+            points.iter().zip(&others).map(|(point, other)| with(point, other)).collect();
+        let again = |at: usize, points: &[Fragment]| {
+            let changed: Vec<Fragment> = points.iter().map(|point| with(point, &others[at])).collect();
+            vec![subject.thresholds(points), subject.thresholds(&changed)]
+        };
+        let asked = [once.clone(), subject.thresholds(&changed)];
+        let trial = equality(subject, &points, &asked, again, &format!("where the {name} alone is another"));
+        if trial.conclusion == (Conclusion::Exact { holds: false }) {
+            return Ok(trial);
+        }
+        all = Some(trial);
+    }
+    Ok(all
+        .unwrap_or_else(|| Trial::without(Conclusion::Inconclusive, "there is nothing beside the footprint")))
 }

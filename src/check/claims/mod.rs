@@ -1,10 +1,12 @@
 //! The claims: one file a family. A claim is a sentence about a threshold and the trial that could refute it.
 
 pub mod atoms;
+pub mod avalanche;
 pub mod cells;
 pub mod combinations;
 pub mod continuity;
 pub mod coordinates;
+pub mod copies;
 pub mod coverage;
 pub mod degenerate;
 pub mod determinism;
@@ -83,8 +85,12 @@ pub const ALL: &[Claim] = &[
     hash::VALUES,
     hash::RESONANCE,
     lags::LAGS,
+    copies::COPIES,
+    copies::OCTAVE_COPIES,
     combinations::TRIPLES,
     combinations::SQUARES,
+    avalanche::INDEX,
+    avalanche::OCTAVE,
     layers::PARALLEL,
     layers::QUARTER,
     stability::TRANSLATE,
@@ -102,6 +108,7 @@ pub const ALL: &[Claim] = &[
     flips::SKINNING,
     coordinates::OBJECT,
     determinism::TWO_PASSES,
+    determinism::ARGUMENTS,
     determinism::DERIVATIVES,
     frames::STATIC,
     frames::STRATIFIED,
@@ -116,6 +123,7 @@ pub const ALL: &[Claim] = &[
     cells::ORIGIN,
     cells::WINDOW,
     cells::MIRROR,
+    copies::SYMMETRY,
     atoms::ZERO,
     atoms::ENDS,
     domain::UNIFORM,

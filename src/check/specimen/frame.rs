@@ -35,6 +35,38 @@ fn spread(last: u32, rule: fn(f64, u32, NonZeroU32) -> f64) -> Subject<'static> 
 
 pub(super) const FAMILY: &[Specimen] = &[
     Specimen {
+        name: "layer-in-the-seed",
+        defect: "the second bit of the layer is part of the hash, so a surface changes its noise with what lies before it",
+        mend: "hash the cell alone",
+        claim: "determinism.arguments",
+        subject: || {
+            Port {
+                read: |at| {
+                    let shift = DVec3::splat(64.0 * f64::from(at.layer >> 1 & 1));
+                    Footprint { position: at.footprint.position + shift, ..at.footprint }
+                },
+                ..SOUND
+            }
+            .subject()
+        },
+    },
+    Specimen {
+        name: "tile-in-the-seed",
+        defect: "each repeat of the texture has noise of its own, and so every seam a tear",
+        mend: "hash the cell alone",
+        claim: "determinism.arguments",
+        subject: || {
+            Port {
+                read: |at| {
+                    let shift = DVec3::new(64.0 * at.texcoord.x.floor(), 0.0, 0.0);
+                    Footprint { position: at.footprint.position + shift, ..at.footprint }
+                },
+                ..SOUND
+            }
+            .subject()
+        },
+    },
+    Specimen {
         name: "frame-seed",
         defect: "the index of the frame is part of the hash, so the noise is drawn anew in every frame",
         mend: "hash the cell alone, or spread thresholds over frames by Eq. 6",

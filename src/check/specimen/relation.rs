@@ -76,6 +76,115 @@ pub(super) const FAMILY: &[Specimen] = &[
         },
     },
     Specimen {
+        name: "slanted-period",
+        defect: "rows repeat 200 rows further up and 300 cells further along, as a buffer of too few cells makes them",
+        mend: "hash whole indices",
+        claim: "hash.copies",
+        subject: || {
+            hashed_by(|[x, y, z], octave| {
+                let tiles = (y / 200.0).floor();
+                ideal_hash([x - 300.0 * tiles, y - 200.0 * tiles, z], octave)
+            })
+            .subject()
+        },
+    },
+    Specimen {
+        name: "index-bit-lost",
+        defect: "bit 6 of y is lost, as by a mask with a wrong digit",
+        mend: "hash whole indices",
+        claim: "hash.avalanche",
+        subject: || {
+            hashed_by(|[x, y, z], octave| {
+                let kept = y as i32 & !(1 << 6);
+                ideal_hash([x, f64::from(kept), z], octave)
+            })
+            .subject()
+        },
+    },
+    Specimen {
+        name: "bit-that-follows-an-index",
+        defect: "the sixth digit of the hash is that of another hash, turned over by bit 7 of x",
+        mend: "use a hash that mixes all bits, as murmur3 or pcg4d",
+        claim: "hash.avalanche",
+        subject: || {
+            hashed_by(|[x, y, z], octave| {
+                let x = x as i32;
+                let hash = (ideal_hash([f64::from(x), y, z], octave) * 64.0).floor();
+                let rest = ideal_hash([f64::from(x), y, z], octave) * 64.0 - hash;
+                let other = ideal_hash([f64::from(x & !(1 << 7)), y, z], octave + 50);
+                let digit = (other >= 0.5) ^ (x & (1 << 7) != 0);
+                ((hash / 2.0).floor() * 2.0 + f64::from(u8::from(digit)) + rest) / 64.0
+            })
+            .subject()
+        },
+    },
+    Specimen {
+        name: "folded-at-a-plane",
+        defect: "x is folded at 100 cells, as a mirrored texture is, so the noise on both sides is the same",
+        mend: "hash whole indices",
+        claim: "cells.symmetry",
+        subject: || {
+            hashed_by(|[x, y, z], octave| {
+                let folded = if x < 100.0 { 199.0 - x } else { x };
+                ideal_hash([folded, y, z], octave)
+            })
+            .subject()
+        },
+    },
+    Specimen {
+        name: "opposite-of-its-mirror",
+        defect: "cells of negative z hold 1 - h for the hash h of their mirror image, as an odd function does",
+        mend: "hash the sign as well",
+        claim: "cells.symmetry",
+        subject: || {
+            hashed_by(|[x, y, z], octave| {
+                if z < 0.0 {
+                    1.0 - ideal_hash([x, y, -1.0 - z], octave)
+                } else {
+                    ideal_hash([x, y, z], octave)
+                }
+            })
+            .subject()
+        },
+    },
+    Specimen {
+        name: "y-and-z-commute",
+        defect: "the hash of x, y, z and that of x, z, y are the same",
+        mend: "let the hash read each coordinate by itself",
+        claim: "cells.symmetry",
+        subject: || hashed_by(|[x, y, z], octave| ideal_hash([y + z, y * z, x], octave)).subject(),
+    },
+    Specimen {
+        name: "octave-without-sign",
+        defect: "the absolute value of the octave is hashed, so octaves k and -k have the same noise",
+        mend: "hash the octave in two's complement",
+        claim: "hash.octave_copies",
+        subject: || hashed_by(|index, octave| ideal_hash(index, octave.abs())).subject(),
+    },
+    Specimen {
+        name: "octave-not-below-zero",
+        defect: "the octave is converted to an unsigned number, which makes 0 of all negative ones",
+        mend: "hash the octave in two's complement",
+        claim: "hash.octave_copies",
+        subject: || hashed_by(|index, octave| ideal_hash(index, octave.max(0))).subject(),
+    },
+    Specimen {
+        name: "octave-copies-the-third",
+        defect: "every eighth cell along each axis has the hash of the cell three octaves above it",
+        mend: "hash the octave as a fourth word",
+        claim: "hash.octave_copies",
+        subject: || {
+            hashed_by(|index, octave| {
+                if index.iter().all(|c| c.rem_euclid(8.0) == 0.0) {
+                    ideal_hash(index.map(|c| c / 8.0), octave - 3)
+                } else {
+                    ideal_hash(index, octave)
+                }
+            })
+            .subject()
+        },
+    },
+    Specimen {
         name: "linear-recurrence",
         defect: "along x the hash is the generator RANDU: three cells in a row satisfy a linear relation, any two look \
                  independent",
