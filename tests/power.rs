@@ -30,13 +30,21 @@ const LARGER: f64 = 1.1;
 const MOST_MISSES: usize = 2;
 
 /// Claims without a planted effect, with the reason.
-const LEFT: [(&str, &str); 3] = [
+const LEFT: [(&str, &str); 8] = [
     ("range.degenerate", "a fixed table, gone through as a whole: no size is stated"),
     ("uniform.without_cdf", "a negative control"),
     (
         "spectrum.ordinates",
         "its distance is a guarantee for any error in the law, by far not the least that it sees",
     ),
+    ("hash.avalanche", "only its specimens are tried: a bit of an index has to be turned within the hash"),
+    (
+        "hash.octave_avalanche",
+        "only its specimens are tried: a bit of an octave has to be turned within the hash",
+    ),
+    ("hash.copies", "only its specimens are tried: copies lie at one distance within the hash"),
+    ("hash.octave_copies", "only its specimens are tried: copies lie at one distance within the hash"),
+    ("cells.symmetry", "only its specimens are tried: images lie in any plane"),
 ];
 
 /// Shares of thresholds that are drawn anew, for an error of 1 in the share that flips: measured. One that is drawn anew
@@ -362,6 +370,15 @@ fn plant(claim: &str) -> Option<(Ground, Plant)> {
                         if coin_of_point(1, at) < size { (x + at.world.x).rem_euclid(1.0) } else { x }
                     },
                 )
+            }),
+        ),
+        "determinism.arguments" => (
+            Continuous,
+            Box::new(|_, base, size| {
+                each(base, move |at, x| {
+                    let moved = x + 0.1 * f64::from(at.layer);
+                    if coin_of_point(1, at) < size { moved.rem_euclid(1.0) } else { x }
+                })
             }),
         ),
         "symmetry.derivatives" => (
