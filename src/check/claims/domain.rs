@@ -216,8 +216,13 @@ fn neighbour(subject: &Subject<'_>, here: &Fragment, rng: &mut Xoshiro256PlusPlu
 fn behind(subject: &Subject<'_>, here: &Fragment, rng: &mut Xoshiro256PlusPlus) -> Fragment {
     let side = subject.nominal(&here.footprint).coarse_scale.map(|scale| 1.0 / scale);
     let [near, far] = BEHIND;
-    let away = DVec3::from_array(side)
-        * DVec3::from_array([(); 3].map(|()| 2.0 * uniform01(rng) - 1.0)).normalize_or(DVec3::Z);
+    // In half of the pairs one looks along an axis of the object, as at the walls of a room.
+    let direction = if uniform01(rng) < 0.5 {
+        DVec3::AXES[(3.0 * uniform01(rng)) as usize]
+    } else {
+        DVec3::from_array([(); 3].map(|()| 2.0 * uniform01(rng) - 1.0)).normalize_or(DVec3::Z)
+    };
+    let away = DVec3::from_array(side) * direction;
     let there = moved(subject, here, away * (near + (far - near) * uniform01(rng)));
     Fragment { pixel: here.pixel, layer: here.layer + 1 + (3.0 * uniform01(rng)) as u32, ..there }
 }

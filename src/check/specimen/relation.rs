@@ -38,13 +38,6 @@ pub(super) const FAMILY: &[Specimen] = &[
         },
     },
     Specimen {
-        name: "period-of-289-along-z",
-        defect: "z is reduced modulo 289, as the permutation polynomials of shaders do",
-        mend: "hash whole indices",
-        claim: "hash.lags",
-        subject: || hashed_by(|[x, y, z], octave| ideal_hash([x, y, z.rem_euclid(289.0)], octave)).subject(),
-    },
-    Specimen {
         name: "antithetic-at-five",
         defect: "every cell whose x has an odd fifth holds 1 - h for the hash h of the cell five behind it",
         mend: "hash every cell by itself",
@@ -119,19 +112,6 @@ pub(super) const FAMILY: &[Specimen] = &[
         },
     },
     Specimen {
-        name: "folded-at-a-plane",
-        defect: "x is folded at 100 cells, as a mirrored texture is, so the noise on both sides is the same",
-        mend: "hash whole indices",
-        claim: "cells.symmetry",
-        subject: || {
-            hashed_by(|[x, y, z], octave| {
-                let folded = if x < 100.0 { 199.0 - x } else { x };
-                ideal_hash([folded, y, z], octave)
-            })
-            .subject()
-        },
-    },
-    Specimen {
         name: "opposite-of-its-mirror",
         defect: "cells of negative z hold 1 - h for the hash h of their mirror image, as an odd function does",
         mend: "hash the sign as well",
@@ -165,24 +145,8 @@ pub(super) const FAMILY: &[Specimen] = &[
         name: "octave-not-below-zero",
         defect: "the octave is converted to an unsigned number, which makes 0 of all negative ones",
         mend: "hash the octave in two's complement",
-        claim: "hash.octave_copies",
+        claim: "hash.octave_avalanche",
         subject: || hashed_by(|index, octave| ideal_hash(index, octave.max(0))).subject(),
-    },
-    Specimen {
-        name: "octave-copies-the-third",
-        defect: "every eighth cell along each axis has the hash of the cell three octaves above it",
-        mend: "hash the octave as a fourth word",
-        claim: "hash.octave_copies",
-        subject: || {
-            hashed_by(|index, octave| {
-                if index.iter().all(|c| c.rem_euclid(8.0) == 0.0) {
-                    ideal_hash(index.map(|c| c / 8.0), octave - 3)
-                } else {
-                    ideal_hash(index, octave)
-                }
-            })
-            .subject()
-        },
     },
     Specimen {
         name: "linear-recurrence",
