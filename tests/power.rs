@@ -172,10 +172,10 @@ fn popping(share: f64, at_the_octave: bool) -> impl Fn(&Fragment, f64) -> f64 + 
     move |at, value| {
         let p = at.footprint.position;
         let scale = log_scale(at);
-        let passed = (-24..24).filter(|&octave| {
-            let pops = coin(octave as u64, &[p.x, p.y, p.z]) < share;
-            let place = if at_the_octave { 0.0 } else { coin(100 + octave as u64, &[p.x, p.y, p.z]) };
-            pops && scale >= f64::from(octave) + place
+        let passed = (-24_i64..24).filter(|&octave| {
+            let pops = coin(octave.cast_unsigned(), &[p.x, p.y, p.z]) < share;
+            let place = if at_the_octave { 0.0 } else { coin(100_u64.wrapping_add_signed(octave), &[p.x, p.y, p.z]) };
+            pops && scale >= octave as f64 + place
         });
         if passed.count() % 2 == 1 { 1.0 - value } else { value }
     }

@@ -73,7 +73,7 @@ Examples:
   hashed-alpha check paper --only stability --only range --budget quick
   hashed-alpha check paper --expect findings.toml
   hashed-alpha check robust --until-failure --hours 0.5
-  hashed-alpha check hash:pcg3d --until-failure --out report-pcg3d
+  hashed-alpha check hash:mm4 --until-failure --out report-mm4
   hashed-alpha check my.wgsl#my_hash --until-failure
 
 A file of known findings makes the exit code speak of news alone:

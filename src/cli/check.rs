@@ -15,7 +15,7 @@ use hashed_alpha::report::{directory, json, text};
 use indicatif::ProgressBar;
 use std::io::Write;
 use std::path::Path;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::AtomicU64;
 
 /// Tries the claims, writes the report, then the results.
 ///
@@ -145,18 +145,12 @@ fn tried(claims: &[Claim], subjects: &[Subject<'_>], draw: &Draw) -> Vec<Outcome
     let outcomes = check::run_claims(claims, subjects, draw, || {
         bar.inc(1);
         let seconds = bar.elapsed().as_secs();
-        if bar.is_hidden() && is_due(&told, seconds) {
+        if bar.is_hidden() && output::is_due(&told, seconds) {
             output::remark("note", format_args!("{} of {trials} trials after {seconds} s", bar.position()));
         }
     });
     bar.finish_and_clear();
     outcomes
-}
-
-/// Whether ten seconds have passed since the last line; of several threads one is told so.
-pub fn is_due(told: &AtomicU64, seconds: u64) -> bool {
-    let tens = seconds / 10;
-    told.fetch_max(tens, Ordering::Relaxed) < tens
 }
 
 /// Says on stderr what the exit code rests on.
@@ -172,17 +166,5 @@ fn explain(outcomes: &[Outcome], known: &[Known]) {
     let untried = known.iter().filter(|known| !known.was_tried(outcomes)).count();
     if untried > 0 {
         output::remark("note", format_args!("known findings that name nothing which was tried: {untried}"));
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_line_is_due_every_ten_seconds() {
-        let told = AtomicU64::new(0);
-        let due = [0, 9, 10, 10, 19, 34, 39, 40].map(|seconds| is_due(&told, seconds));
-        assert_eq!(due, [false, false, true, false, false, true, false, true]);
     }
 }

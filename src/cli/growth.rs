@@ -1,7 +1,6 @@
 //! `check --until-failure`: the samples of every claim are doubled until it fails.
 
 use super::args::CheckArgs;
-use super::check::is_due;
 use super::failure::Failure;
 use super::{Ending, output};
 use hashed_alpha::check::growth::{End, Plan, Step, grow};
@@ -145,7 +144,7 @@ impl Progress {
     fn tell(&self, plan: &Plan<'_>, steps: &[Step]) {
         let seconds = self.begun.elapsed().as_secs();
         let is_hidden = self.bar.is_hidden();
-        if is_hidden && !is_due(&self.told, seconds) {
+        if is_hidden && !output::is_due(&self.told, seconds) {
             return;
         }
         let rows = rows(plan, steps);

@@ -3,6 +3,7 @@
 use std::env;
 use std::fmt::Display;
 use std::io::{self, BufWriter, IsTerminal, StdoutLock, Write};
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Returns stdout with a buffer. Flush it: what is left in the buffer at the end is lost without a word.
 pub fn results() -> BufWriter<StdoutLock<'static>> {
@@ -17,4 +18,22 @@ pub fn takes_colour() -> bool {
 /// Writes `kind: text` to stderr. Nobody is left to hear of it when that fails.
 pub fn remark(kind: &str, text: impl Display) {
     let _ = writeln!(io::stderr().lock(), "{kind}: {text}");
+}
+
+/// Whether ten seconds have passed since the last line; of several threads one is told so.
+pub fn is_due(told: &AtomicU64, seconds: u64) -> bool {
+    let tens = seconds / 10;
+    told.fetch_max(tens, Ordering::Relaxed) < tens
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_is_due_every_ten_seconds() {
+        let told = AtomicU64::new(0);
+        let due = [0, 9, 10, 10, 19, 34, 39, 40].map(|seconds| is_due(&told, seconds));
+        assert_eq!(due, [false, false, true, false, false, true, false, true]);
+    }
 }

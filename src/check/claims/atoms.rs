@@ -24,6 +24,12 @@ const MOST_LAYERS: usize = 1 << 20;
 /// An end of the range: one step of the coarsest grid of the `f32` sine hash.
 const END: f64 = 1.0 / 1024.0;
 
+/// How near to an end values are looked at for the steps in which they are stored.
+const NEAR_END: f64 = 4.0 * END;
+
+/// Values near an end after which no more are looked at: every step of 16 bits has come up.
+const NEAR_VALUES: usize = 1 << 12;
+
 /// Layers of the block of cells in which the ends are counted: 256 expected at each end.
 const END_LAYERS: u32 = ATOM_BLOCK[2] / 4;
 
@@ -98,14 +104,31 @@ fn zero(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     })
 }
 
+/// The smallest distance between two different values, at most half of the end; 0 where there is none.
+fn step(mut values: Vec<f64>) -> f64 {
+    values.sort_unstable_by(f64::total_cmp);
+    let steps = values.windows(2).map(|pair| pair[1] - pair[0]).filter(|&step| step > 0.0);
+    steps.reduce(f64::min).map_or(0.0, |step| step.min(0.5 * END))
+}
+
 fn ends(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     let mut counts = [0_u64; 2];
+    let mut near: [Vec<f64>; 2] = Default::default();
     let n = block_of_cells(subject, layers(draw, END_LAYERS), draw.rng(ENDS.id), |values| {
         counts[0] += values.iter().filter(|&&value| value < END).count() as u64;
         counts[1] += values.iter().filter(|&&value| value >= 1.0 - END).count() as u64;
+        if near.iter().all(|near| near.len() < NEAR_VALUES) {
+            near[0].extend(values.iter().filter(|&&value| value < NEAR_END));
+            near[1].extend(values.iter().filter(|&&value| value > 1.0 - NEAR_END));
+        }
     })?;
     let mean = n as f64 * END;
-    let p = counts.map(|count| binomial::two_sided_p(count, n, END));
+    // A value that is stored in steps may lie on either side of the end's edge by one of them.
+    let steps = near.map(step);
+    let p = [0, 1].map(|end| {
+        let nearest = (counts[end] as f64 / n as f64).clamp(END - steps[end], END + steps[end]);
+        binomial::two_sided_p(counts[end], n, nearest)
+    });
     let worst = if p[0] <= p[1] { 0 } else { 1 };
     let share = counts[worst] as f64 / mean;
     let sigma = (mean * (1.0 - END)).sqrt() / mean;

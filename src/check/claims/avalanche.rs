@@ -1,12 +1,12 @@
 //! One bit of what a hash reads, turned over: each bit of the threshold turns over in half of the cases.
 
 use crate::check::evidence::ComparedShare;
-use crate::check::input::in_cell;
+use crate::check::input::seen_in_cell;
 use crate::check::tolerance::{POWER, SINGLE_LEVEL, VIEW};
 use crate::check::trial::reject_outsiders;
 use crate::check::{Attempt, Claim, Conclusion, Draw, Evidence, Promise, Subject, Trial, Verdict};
+use crate::scene::Fragment;
 use crate::stats::{binomial, power, seed};
-use crate::threshold::footprint::Footprint;
 use glam::DVec3;
 
 /// Cells in which each bit is turned over: an error of 0.056 in a share of turned bits shows.
@@ -126,7 +126,7 @@ struct Cell {
 fn avalanche(subject: &Subject<'_>, draw: &Draw, claim: &str, bits: &[Turned]) -> Attempt<Trial> {
     let mut rng = draw.rng(claim);
     let n = draw.samples(TURNED_CELLS).min(MOST_TURNED_CELLS);
-    let mut footprints: Vec<Footprint<f64>> = Vec::with_capacity(n * (bits.len() + 1));
+    let mut fragments: Vec<Fragment> = Vec::with_capacity(n * (bits.len() + 1));
     for _ in 0..n {
         let mut within = |[low, high]: [f64; 2]| (low + (high - low) * seed::uniform01(&mut rng)).floor();
         let reach = f64::from(VIEW);
@@ -134,12 +134,12 @@ fn avalanche(subject: &Subject<'_>, draw: &Draw, claim: &str, bits: &[Turned]) -
         let octave = within(TURNED_OCTAVES) as i32;
         let turned = bits.iter().map(|bit| bit.turn(cell, octave));
         let all = core::iter::once((cell, octave)).chain(turned);
-        footprints.extend(all.map(|(cell, octave)| {
-            in_cell(subject, DVec3::from_array(cell.map(|index| index as f64)), octave)
+        fragments.extend(all.map(|(cell, octave)| {
+            seen_in_cell(subject, DVec3::from_array(cell.map(|index| index as f64)), octave)
         }));
     }
-    let values = subject.thresholds(&footprints);
-    reject_outsiders(subject, &footprints, &values)?;
+    let values = subject.thresholds(&fragments);
+    reject_outsiders(subject, &fragments, &values)?;
     let near = nearness(&values);
     // Bits of a coarse lattice may be constant or lean to one side: two independent ones differ in 2 q (1 - q).
     let differ: Vec<f64> = (0..THRESHOLD_BITS)

@@ -6,12 +6,12 @@
 //! hashes of chained words have whole rows that are equal up to a shift, of one row and another: such rows come up in the search, but
 //! what takes one to the other takes no other cell to a copy.
 
-use crate::check::input::{draw_octave, in_cell};
+use crate::check::input::{draw_octave, seen_in_cell};
 use crate::check::tolerance::{SPREAD, VIEW, VIEW_DEPTH};
 use crate::check::trial::reject_outsiders;
 use crate::check::{Attempt, Claim, Conclusion, Draw, Evidence, Promise, Subject, Trial, Verdict};
+use crate::scene::Fragment;
 use crate::stats::{binomial, seed};
-use crate::threshold::footprint::Footprint;
 use glam::DVec3;
 use rand::rngs::Xoshiro256PlusPlus;
 use rustc_hash::FxHashSet;
@@ -213,12 +213,12 @@ fn shift_of(map: Map, first: &Seen, second: &Seen) -> [i32; 3] {
 
 /// Evaluates cells where their octave has all weight.
 fn evaluated(subject: &Subject<'_>, cells: &[([i64; 3], i32)]) -> Attempt<Vec<Seen>> {
-    let footprints: Vec<Footprint<f64>> = cells
+    let fragments: Vec<Fragment> = cells
         .iter()
-        .map(|(cell, octave)| in_cell(subject, DVec3::from_array(cell.map(|c| c as f64)), *octave))
+        .map(|(cell, octave)| seen_in_cell(subject, DVec3::from_array(cell.map(|c| c as f64)), *octave))
         .collect();
-    let values = subject.thresholds(&footprints);
-    reject_outsiders(subject, &footprints, &values)?;
+    let values = subject.thresholds(&fragments);
+    reject_outsiders(subject, &fragments, &values)?;
     Ok(cells.iter().zip(values).map(|(&(cell, octave), value)| Seen { cell, octave, value }).collect())
 }
 

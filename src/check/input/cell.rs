@@ -2,15 +2,19 @@
 
 use crate::check::Subject;
 use crate::check::tolerance::SPREAD;
+use crate::scene::Fragment;
 use crate::stats::seed;
 use crate::threshold::footprint::Footprint;
 use crate::threshold::two_scale::Variant;
-use glam::{DVec3, dvec3};
+use glam::{DVec2, DVec3, dvec3};
 use rand::rngs::Xoshiro256PlusPlus;
 
 /// Octaves out of which one is drawn where a claim is about the cells of one: from cells of 1024 units to cells of a
 /// thousandth.
 const DRAWN_OCTAVES: core::ops::Range<i32> = -10..11;
+
+/// Pixels along each side of the screen on which single cells are seen.
+const SCREEN: f64 = 1024.0;
 
 /// What a scale is divided by: Listing 2 counts the diagonal of a cell.
 pub(crate) fn numerator(variant: Variant) -> f64 {
@@ -52,4 +56,17 @@ pub(crate) fn draw_octave(rng: &mut Xoshiro256PlusPlus) -> i32 {
 pub(crate) fn draw_cell(rng: &mut Xoshiro256PlusPlus) -> DVec3 {
     let mut index = || ((2.0 * seed::uniform01(rng) - 1.0) * SPREAD).floor();
     dvec3(index(), index(), index())
+}
+
+/// The same as a fragment: every cell of a layer in a pixel of its own.
+pub(crate) fn seen_in_cell(subject: &Subject<'_>, cell: DVec3, octave: i32) -> Fragment {
+    let footprint = in_cell(subject, cell, octave);
+    let pixel = cell.truncate().rem_euclid(DVec2::splat(SCREEN)) + 0.5;
+    Fragment {
+        world: footprint.position,
+        eye: footprint.position,
+        pixel,
+        texcoord: pixel / SCREEN,
+        ..Fragment::from(footprint)
+    }
 }
