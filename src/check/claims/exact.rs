@@ -38,7 +38,7 @@ pub const CELLS: Claim = Claim {
                 threshold is another one",
     expected: Verdict::Consistent,
     // At the quick budget a dithered threshold leaves a fifth of the pairs, of which chance may keep one or two.
-    promise: Some(Promise::Linear(8.0e-3)),
+    promise: Some(Promise::Linear(1.0e-2)),
     run: cells,
 };
 

@@ -54,12 +54,12 @@ pub(super) const FAMILY: &[Specimen] = &[
     },
     Specimen {
         name: "layers-alike-in-large-cells",
-        defect: "in cells of more than 256 units the hash leaves out z, so that surfaces one behind the other are alike",
+        defect: "in cells of more than four units the hash leaves out z, so that surfaces one behind the other are alike",
         mend: "hash all three indices",
         claim: "domain.layers",
         subject: || {
             let hash =
-                |[x, y, z]: [f64; 3], octave| ideal_hash([x, y, if octave < -8 { 0.0 } else { z }], octave);
+                |[x, y, z]: [f64; 3], octave| ideal_hash([x, y, if octave < -2 { 0.0 } else { z }], octave);
             Port { hash, ..SOUND }.subject()
         },
     },
