@@ -174,7 +174,8 @@ fn popping(share: f64, at_the_octave: bool) -> impl Fn(&Fragment, f64) -> f64 + 
         let scale = log_scale(at);
         let passed = (-24_i64..24).filter(|&octave| {
             let pops = coin(octave.cast_unsigned(), &[p.x, p.y, p.z]) < share;
-            let place = if at_the_octave { 0.0 } else { coin(100_u64.wrapping_add_signed(octave), &[p.x, p.y, p.z]) };
+            let place =
+                if at_the_octave { 0.0 } else { coin(100_u64.wrapping_add_signed(octave), &[p.x, p.y, p.z]) };
             pops && scale >= octave as f64 + place
         });
         if passed.count() % 2 == 1 { 1.0 - value } else { value }
