@@ -28,8 +28,7 @@ fn asked(claim: &str) -> Vec<Fragment> {
     let conclusion = trial.unwrap_or_else(|ended| *ended).conclusion;
     assert!(!matches!(conclusion, Conclusion::Inconclusive | Conclusion::Unavailable), "{}", claim.id);
     drop(subject);
-    let all = record.lock().expect("no test panics in here").clone();
-    all
+    record.lock().expect("no test panics in here").clone()
 }
 
 /// The logarithm of the cells per unit along the longer derivative.

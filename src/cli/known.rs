@@ -108,7 +108,7 @@ reason = "all cells of one z share a bias"
         let [check, subject, reason] =
             ["uniform.constant_z", "paper:isotropic", "all cells of one z share a bias"].map(str::to_owned);
         let expected = Known::of_subject(check, subject, Precision::F32, reason);
-        assert_eq!(known, [expected.clone()]);
+        assert_eq!(known, std::slice::from_ref(&expected));
         assert_eq!(parse(&format!("{LIST}size = 2e-3")).unwrap(), [expected.with_size(Some(2e-3))]);
         assert_eq!(parse("# nothing is known"), Ok(Vec::new()));
     }

@@ -105,7 +105,8 @@ fn triples(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     let mut rng = draw.rng(TRIPLES.id);
     let block = Block::draw(cube(draw.samples(COMBINED_CELLS).ilog2(), &mut rng), &mut rng);
     let values = block.thresholds(subject)?;
-    let (mut worst, mut tests): (Option<(WorstForm, [[i64; 3]; 2])>, u64) = (None, 0);
+    let mut worst: Option<(WorstForm, [[i64; 3]; 2])> = None;
+    let mut tests: u64 = 0;
     for shape in shapes() {
         let [second, third] = shape;
         let Ok(found) = forms::worst_form(together(&block, &values, [[0; 3], second, third])) else {

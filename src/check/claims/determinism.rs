@@ -114,8 +114,11 @@ fn derivatives(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     Ok(equality(subject, &points, &asked(&points), |_, points| asked(points), when))
 }
 
+/// Takes one argument from another fragment.
+type Taken = fn(&mut Fragment, &Fragment);
+
 /// What a fragment has beside its footprint, by name: how to take it over from another one.
-const BESIDE_FOOTPRINT: [(&str, fn(&mut Fragment, &Fragment)); 7] = [
+const BESIDE_FOOTPRINT: [(&str, Taken); 7] = [
     ("layer", |of, other| of.layer = other.layer),
     ("level of detail", |of, other| of.lod = other.lod),
     ("texture coordinates", |of, other| of.texcoord = other.texcoord),

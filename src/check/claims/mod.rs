@@ -55,7 +55,7 @@ pub fn is_beyond_a_hash(id: &str) -> bool {
     let is_of = |family: &&str| {
         id.strip_prefix(*family).is_some_and(|rest| matches!(rest.as_bytes(), [] | [b'.', ..]))
     };
-    BEYOND_A_HASH.iter().any(|family| is_of(&family))
+    BEYOND_A_HASH.iter().any(is_of)
 }
 
 /// Every claim, in the order of the report.

@@ -271,7 +271,7 @@ fn levels(dimension: Dimension, n: usize, scales: usize, rng: &mut Xoshiro256Plu
     let [first, last] = dimension.ends(scales);
     let count = (last - first + 1) as usize;
     let level = |at: usize| match dimension {
-        Dimension::Zero if at % 2 == 0 => 0,
+        Dimension::Zero if at.is_multiple_of(2) => 0,
         Dimension::Zero => 1 + (at / 2 % (count - 1)) as i32,
         _ => first + (at % count) as i32,
     };
