@@ -208,7 +208,7 @@ impl Domain {
         };
         match self.frames.len() - first {
             0 => consecutive,
-            others if first == 0 => format!("{others} of any size"),
+            others if first == 0 => format!("+{others}"),
             others => format!("{consecutive} +{others}"),
         }
     }

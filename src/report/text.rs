@@ -20,8 +20,9 @@ const GAP: usize = 2;
 /// Where findings begin.
 const INDENT: &str = "    ";
 const SHORTEST_NAME: usize = 12;
-/// Characters of a column of what was sampled: the name of a claim fits.
-const WIDEST_SAMPLED: usize = 28;
+/// Characters of a column of what was sampled, for the name of a claim and for all others.
+const WIDEST_CLAIM: usize = 28;
+const WIDEST_SAMPLED: usize = 14;
 
 /// Returns the table, with a line break after every line: headings, one line a claim, below it its finding where it
 /// has one, then what each claim has sampled, what each subject looks like that something speaks against, and [`summary`].
@@ -188,13 +189,14 @@ fn push_sampled(text: &mut String, outcomes: &[Outcome]) {
     let rows: Vec<_> = std::iter::once(sampled::HEADINGS.map(str::to_owned)).chain(rows).collect();
     let mut widths = [0; 9];
     for row in &rows {
-        for (width, cell) in widths.iter_mut().zip(row) {
-            *width = (*width).max(cell.chars().count()).min(WIDEST_SAMPLED);
+        for (column, (width, cell)) in widths.iter_mut().zip(row).enumerate() {
+            let widest = if column == 0 { WIDEST_CLAIM } else { WIDEST_SAMPLED };
+            *width = (*width).max(cell.chars().count()).min(widest);
         }
     }
     for row in &rows {
         let padded = row.iter().zip(widths).map(|(cell, width)| format!("{:width$}", cut(cell, width)));
-        push_line(text, cut(padded.collect::<Vec<_>>().join("  ").trim_end(), COLUMNS).as_str());
+        push_line(text, cut(padded.collect::<Vec<_>>().join(" ").trim_end(), COLUMNS).as_str());
     }
 }
 
