@@ -326,7 +326,7 @@ fn pairs(claim: &Claim, subject: &Subject<'_>, draw: &Draw, partner: Partner) ->
     Ok(Trial {
         conclusion: worst.conclusion(),
         statistic: Some(worst.effect),
-        statistic_name: format!("excess chi-square per pair, worst of {}", worst.tests),
+        statistic_name: format!("excess chi-square per pair or correlation, worst of {}", worst.tests),
         n: whole.map_or(0, |(_, table)| table.n),
         effect: Some(worst.effect),
         effect_name: "excess chi-square per pair, or correlation, in a part of the domain",

@@ -3,7 +3,8 @@
 //!
 //! The domain is a product of [`Dimension`]s, each cut into levels. A [`Setting`] is one level of each. Settings are drawn so that
 //! every level of every dimension comes up as often as any other (a Latin hypercube); which levels come together depends on the
-//! seed. The corners, where octave, distance and ratio are at their ends, are always among them.
+//! seed. Two things are not evenly spread: the first settings are corners, where octave, distance and ratio are at their ends, in every
+//! direction; and half of the settings have no derivative that is zero.
 
 use crate::check::Subject;
 use crate::check::draw::{Draw, Reach};

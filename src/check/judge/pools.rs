@@ -32,7 +32,7 @@ impl<T: Clone> Pools<T> {
         self.settings.push((setting.words(&settings.scales), counted));
     }
 
-    /// Calls the function with every part that holds more than a setting: the whole and each level, by name.
+    /// Every part that holds more than a setting, by name: the whole domain first, then each level of each dimension.
     pub fn levels(&self) -> impl Iterator<Item = (&str, &T)> {
         let mut levels: Vec<_> = self.levels.iter().collect();
         levels.sort_unstable_by_key(|(key, _)| **key);
