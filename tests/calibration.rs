@@ -10,7 +10,7 @@
 use crate::budget::budget;
 use hashed_alpha::check::specimen::ideal;
 use hashed_alpha::check::subject::Precision;
-use hashed_alpha::check::{Budget, Claim, Conclusion, Draw, Standing, Subject, Verdict, claims, run_claims};
+use hashed_alpha::check::{Budget, Claim, Conclusion, Draw, Frames, Standing, Subject, Verdict, claims, run_claims};
 use hashed_alpha::check::{run::SUSPICION, tolerance::FAMILY_LEVEL};
 use hashed_alpha::stats::sequential::{self, Decision};
 use hashed_alpha::stats::{binomial, ecdf};
@@ -131,7 +131,9 @@ fn about_others(subject: &Subject<'_>) -> Vec<&'static str> {
         // Eq. 2 belongs to the paper's join.
         claims.extend(["exact.cdf", "uniform.without_cdf"]);
     }
-    if subject.frames == 1 {
+    // Nothing here goes through a sequence.
+    claims.push("frames.sequence");
+    if subject.frames == Frames::Static {
         claims.extend(["frames.stratified", "frames.average"]);
     }
     if subject.join == Join::Dithered {

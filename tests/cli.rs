@@ -718,6 +718,13 @@ fn spread(position: vec3<f32>, dpdx: vec3<f32>, dpdy: vec3<f32>, frame: u32) -> 
     assert_eq!((code, rejected.contains(&"frames.stratified".to_owned())), (Some(1), true), "{rejected:?}");
     let (code, rejected) = check(alternating, "1");
     assert_eq!((code, rejected.contains(&"frames.static".to_owned())), (Some(1), true), "{rejected:?}");
+    // A sequence: steps of the golden ratio in whole numbers, and steps of a tenth.
+    let steps = |step: &str| format!("8.0 * f32((frame * {step}u) >> 8u) / 16777216.0");
+    let [golden, tenths] = ["2654435769", "429496730"].map(|step| check(&steps(step)[..], "sequence"));
+    assert_eq!(golden, (Some(0), vec![]));
+    assert_eq!(tenths, (Some(1), vec!["frames.sequence".to_owned()]));
+    let (code, rejected) = check("0u", "sequence");
+    assert_eq!((code, rejected.contains(&"frames.sequence".to_owned())), (Some(1), true), "{rejected:?}");
 }
 
 /// No driver is found where these point.

@@ -67,6 +67,10 @@ const VARIANCE: f64 = 0.46;
 /// How much finer cells are along screen x, for a relative error of 1 of the power in a direction: measured.
 const ANISOTROPY: f64 = 0.95;
 
+/// How far thresholds of a block of 8 x 8 x 8 cells are moved together in each view, for the root of the correlation in a block:
+/// measured.
+const CLUSTERS: f64 = 2.1;
+
 /// From a key, a sound threshold over it and the size of an effect to a threshold that has it.
 type Plant = Box<dyn Fn(u64, Subject<'static>, f64) -> Subject<'static>>;
 
@@ -79,6 +83,8 @@ enum Ground {
     Paper,
     /// Spread over eight frames.
     Frames,
+    /// By a step of the golden ratio from frame to frame.
+    Sequence,
 }
 
 impl Ground {
@@ -88,6 +94,15 @@ impl Ground {
             Self::Continuous => of(Join::Copula),
             Self::Paper => of(Join::Interpolate),
             Self::Frames => of(Join::Copula).stratified(NonZeroU32::MIN.saturating_add(7)),
+            Self::Sequence => {
+                let golden = |at: &Fragment, x: f64| {
+                    let moved = x + 0.618_033_988_749_895 * f64::from(at.frame);
+                    1.0 - (1.0 - moved).rem_euclid(1.0)
+                };
+                let mut subject = each(of(Join::Copula), golden);
+                subject.frames = hashed_alpha::check::Frames::Sequence;
+                subject
+            }
         }
     }
 }
@@ -198,7 +213,7 @@ fn resized(key: u64, hash_scale: f64) -> Subject<'static> {
 
 /// How the effect that a claim measures is planted at a given size.
 fn plant(claim: &str) -> Option<(Ground, Plant)> {
-    use Ground::{Continuous, Frames, Paper};
+    use Ground::{Continuous, Frames, Paper, Sequence};
     let outside: Plant = Box::new(|_, base, size| each(base, some(size, |_| 1.5)));
     let of_chi_square: Plant = Box::new(|_, base, size| each(base, move |_, x| tilted(size.sqrt(), x)));
     let of_pairs: Plant = Box::new(|_, base, size| copied(base, (size / 15.0).sqrt(), 2, 1));
@@ -425,6 +440,34 @@ fn plant(claim: &str) -> Option<(Ground, Plant)> {
                 })
             }),
         ),
+        // At one of many frames.
+        "frames.sequence" => (
+            Sequence,
+            Box::new(|_, base, size| {
+                each(base, move |at, x| {
+                    if coin_of_point(u64::from(at.frame), at) < size {
+                        (x + 0.03).rem_euclid(1.0)
+                    } else {
+                        x
+                    }
+                })
+            }),
+        ),
+        // In each view all thresholds of a block are moved together.
+        "flips.cluster" => (
+            Continuous,
+            Box::new(|_, base, size| {
+                in_rows(base, move |at, values| {
+                    let corner = at[0].footprint.position;
+                    for (at, x) in at.iter().zip(values) {
+                        let cells = libm::exp2((log_scale(at) - 0.01).floor());
+                        let block = ((at.footprint.position - corner) * cells / 8.0).floor();
+                        let coin = coin(1, &[block.x, block.y, block.z, log_scale(at)]);
+                        *x = (*x + CLUSTERS * size.sqrt() * coin).rem_euclid(1.0);
+                    }
+                })
+            }),
+        ),
         "continuity.zoom" | "domain.continuity" => {
             (Continuous, Box::new(|_, base, size| each(base, popping(size, false))))
         }
@@ -586,4 +629,16 @@ fn sizes_found_half_of_the_time() {
     }
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/power.md");
     std::fs::write(path, page).expect("the page can be written");
+}
+
+#[test]
+fn temporary_cluster() {
+    let (claim, ground, plant) = planted().into_iter().find(|p| p.0.id == "flips.cluster").unwrap();
+    for seed in 0..6 {
+        let draw = Draw { budget: Budget::Ci, ..Draw::seeded(seed) };
+        let sound = tried(claim, &ground.subject(seed), &draw);
+        let size = LARGER * sound.detectable.unwrap();
+        let found = tried(claim, &plant(seed, ground.subject(seed), size), &draw);
+        eprintln!("sound {:?} {:?} size {size:.4} found {:?} {:?} {}", sound.conclusion, sound.effect, found.conclusion, found.effect, found.seen);
+    }
 }

@@ -230,7 +230,7 @@ pub fn fingerprint(subject: &Subject<'_>) -> String {
     subject.thresholds(&fragments).into_iter().for_each(|value| digest.write_u64(value.to_bits()));
     let Subject { name, precision, variant, join, nested_phase, hash_scale, frames, bare_hash, .. } = subject;
     format!(
-        "{name} in {precision}, {variant}, {}, nested phase {nested_phase}, hash scale {hash_scale}, {frames} frames, bare hash \
+        "{name} in {precision}, {variant}, {}, nested phase {nested_phase}, hash scale {hash_scale}, frames {frames}, bare hash \
          {bare_hash}, digest {:016x}",
         join.name(),
         digest.finish()

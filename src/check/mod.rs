@@ -70,5 +70,5 @@ pub use outcome::{LikeTheListing, Outcome, Standing, Verdict, worst};
 pub use rests_on::RestsOn;
 pub use results::{Results, Suite};
 pub use run::{run, run_claims};
-pub use subject::{Precision, Subject};
+pub use subject::{Frames, Precision, Subject};
 pub use trial::{Attempt, Conclusion, Trial};

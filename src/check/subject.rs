@@ -13,6 +13,7 @@ use crate::threshold::stage::stratify::{alternating, stratified};
 use crate::threshold::two_scale::Variant;
 use core::fmt;
 use core::num::NonZeroU32;
+use core::str::FromStr;
 use glam::DVec3;
 use rayon::prelude::*;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
@@ -82,6 +83,73 @@ type Rescaled<'a> = Box<dyn Fn(f64, &[Fragment]) -> Result<Vec<f64>, String> + S
 /// What a subject has to say of itself.
 type Remarks<'a> = Box<dyn Fn() -> Vec<String> + Send + Sync + 'a>;
 
+/// What the threshold of a point does from frame to frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Frames {
+    /// It stays what it is.
+    #[default]
+    Static,
+    /// It goes through as many strata, beginning with stratum 0 in frame 0 (Eq. 6), and begins again.
+    Strata(NonZeroU32),
+    /// It goes through the frames by steps that all points have in common, as fract(threshold + frame * 0.618034) does, and that
+    /// fill the unit interval evenly. Not in the paper.
+    Sequence,
+}
+
+impl Frames {
+    /// Returns the frame that is `times` periods after the first one, or as many as can be counted; the first one where there is no
+    /// period.
+    #[must_use]
+    pub fn period_start(self, times: u32) -> u32 {
+        match self {
+            Self::Static => times,
+            Self::Strata(n) => times.min(u32::MAX / n) * n.get(),
+            Self::Sequence => 0,
+        }
+    }
+
+    /// Returns the last frame up to `frame` in which the threshold is that of frame 0.
+    #[must_use]
+    pub fn first_again(self, frame: u32) -> u32 {
+        match self {
+            Self::Static => frame,
+            Self::Strata(n) => frame - frame % n,
+            Self::Sequence => 0,
+        }
+    }
+}
+
+impl fmt::Display for Frames {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Static => f.write_str("static"),
+            Self::Strata(n) => write!(f, "{n} strata"),
+            Self::Sequence => f.write_str("a sequence"),
+        }
+    }
+}
+
+impl FromStr for Frames {
+    type Err = String;
+
+    /// Reads a number of strata, 1 to 1024, or the word `sequence`.
+    fn from_str(typed: &str) -> Result<Self, String> {
+        if typed == "sequence" {
+            return Ok(Self::Sequence);
+        }
+        match typed.parse().map(NonZeroU32::new) {
+            Ok(Some(NonZeroU32::MIN)) => Ok(Self::Static),
+            Ok(Some(n)) if n.get() <= MOST_STRATA => Ok(Self::Strata(n)),
+            Ok(_) | Err(_) => {
+                Err(format!("a number of frames, 1 to {MOST_STRATA}, or the word sequence"))
+            }
+        }
+    }
+}
+
+/// Most strata that a shader file may claim.
+const MOST_STRATA: u32 = 1024;
+
 /// A threshold on trial.
 pub struct Subject<'a> {
     /// The name in reports, as in "paper:isotropic".
@@ -96,9 +164,8 @@ pub struct Subject<'a> {
     pub nested_phase: bool,
     /// The size of the noise in pixels that it claims to have.
     pub hash_scale: f64,
-    /// Over how many frames it claims to spread its thresholds (Eq. 6), beginning with stratum 0 in frame 0; 1 where a
-    /// threshold stays what it is.
-    pub frames: u32,
+    /// What it claims of its thresholds in other frames.
+    pub frames: Frames,
     /// Whether it is the hash of one cell and no more: no second octave, no join, no Eq. 2. Claims about those say nothing
     /// about it.
     pub bare_hash: bool,
@@ -212,7 +279,7 @@ impl<'a> Subject<'a> {
             join: Join::Interpolate,
             nested_phase: false,
             hash_scale: 1.0,
-            frames: 1,
+            frames: Frames::Static,
             bare_hash: false,
             threshold,
             interpolated: None,
@@ -435,7 +502,7 @@ impl<'a> Subject<'a> {
                 Ok(spread_all(rescaled(times, &all_first(fragments))?, fragments))
             })
         });
-        Self { name: format!("{}, {n} frames", self.name), frames: n.get(), threshold, rescaled, ..self }
+        Self { name: format!("{}, {n} frames", self.name), frames: Frames::Strata(n), threshold, rescaled, ..self }
     }
 
     /// The paper's Listings 1 and 2 to the letter, in both precisions.

@@ -3,7 +3,7 @@
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Parser, Subcommand};
 use hashed_alpha::check::subject::Precision;
-use hashed_alpha::check::{Budget, Suite};
+use hashed_alpha::check::{Budget, Frames, Suite};
 use hashed_alpha::render::gallery::GALLERY;
 use hashed_alpha::render::scene_file::bound::LARGEST_SIDE;
 use hashed_alpha::scene::Scene;
@@ -187,9 +187,10 @@ pub struct ShaderArgs {
     /// A shader file cuts its cells between whole numbers, as the robust threshold does
     #[arg(long)]
     pub nested_phase: bool,
-    /// Over how many frames a shader file spreads its thresholds (Eq. 6)
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1024))]
-    pub frames: u32,
+    /// Over how many frames a shader file spreads its thresholds (Eq. 6), or `sequence` where it goes through a sequence of frames,
+    /// as by fract(threshold + frame * 0.618034)
+    #[arg(long, value_name = "N", default_value = "1", allow_negative_numbers = true)]
+    pub frames: Frames,
 }
 
 /// Compares two subjects: are their thresholds equal, or of one law?

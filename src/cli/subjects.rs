@@ -5,7 +5,7 @@ use super::failure::Failure;
 use super::output;
 use super::shader_files::ShaderFile;
 use hashed_alpha::check::shaders;
-use hashed_alpha::check::{Subject, subject::Precision};
+use hashed_alpha::check::{Frames, Subject, subject::Precision};
 use hashed_alpha::render::scene_file::diagnostic::likely;
 use hashed_alpha::scene::{Fragment, Scene};
 use hashed_alpha::shader::interpreter::DeviceModel;
@@ -183,7 +183,7 @@ fn built_in(name: &str, on: On, args: &ShaderArgs) -> Result<Option<Vec<Asked>>,
             join: twin.join,
             nested_phase: twin.nested_phase,
             hash_scale: 1.0,
-            frames: 1,
+            frames: Frames::Static,
         };
         found.extend(placed(&twin.name, &shader, on, args, &claims, Some(family))?);
     }
@@ -196,7 +196,7 @@ struct Claimed {
     join: Join,
     nested_phase: bool,
     hash_scale: f64,
-    frames: u32,
+    frames: Frames,
 }
 
 fn file(typed: &ShaderFile<'_>, args: &ShaderArgs) -> Result<Vec<Asked>, Failure> {

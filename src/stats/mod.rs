@@ -16,6 +16,7 @@
 //! | [`beta`] | tails of Student's t and Fisher's F |
 //! | [`variance`] | is a variance what it should be? are two of them equal? |
 //! | [`binomial`] | exact tails of binomial and Poisson counts, and the Clopper-Pearson interval |
+//! | [`clusters`] | do events on a lattice come in blocks? |
 //! | [`collisions`] | do values that should be spread over many urns meet too often? |
 //! | [`poisson_binomial`] | does a count of unequal but independent events match their probabilities? |
 //! | [`correlation`] | are two sequences related? |
@@ -38,6 +39,7 @@ pub mod autocorrelation;
 pub mod beta;
 pub mod binomial;
 pub mod chi_square;
+pub mod clusters;
 pub mod collisions;
 pub mod correlation;
 pub mod ecdf;

@@ -1,7 +1,7 @@
 //! Linear relations among three, four and eight cells, of which any two may look independent.
 
 use crate::check::evidence::NamedHistogram;
-use crate::check::input::{Block, cube};
+use crate::check::input::{BETWEEN, Block, cube};
 use crate::check::judge::histogram;
 use crate::check::tolerance::{POWER, SINGLE_LEVEL};
 use crate::check::{Attempt, Claim, Conclusion, Draw, Evidence, Promise, Subject, Trial, Verdict};
@@ -101,23 +101,31 @@ fn shapes() -> Vec<[[i64; 3]; 2]> {
     lines.into_iter().chain(corners).collect()
 }
 
-fn triples(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
-    let mut rng = draw.rng(TRIPLES.id);
+/// A block of cells seen where its octave has all weight, and between two octaves, with the thresholds.
+fn blocks(subject: &Subject<'_>, draw: &Draw, claim: &str) -> Attempt<[(Block, Vec<f64>); 2]> {
+    let mut rng = draw.rng(claim);
     let block = Block::draw(cube(draw.samples(COMBINED_CELLS).ilog2(), &mut rng), &mut rng);
-    let values = block.thresholds(subject)?;
-    let mut worst: Option<(WorstForm, [[i64; 3]; 2])> = None;
-    let mut tests: u64 = 0;
-    for shape in shapes() {
-        let [second, third] = shape;
-        let Ok(found) = forms::worst_form(together(&block, &values, [[0; 3], second, third])) else {
-            continue;
-        };
-        tests += found.tests;
-        if worst.is_none_or(|(least, _)| found.p < least.p) {
-            worst = Some((found, shape));
+    let finer = block.seen_at(BETWEEN);
+    Ok([(block, block.thresholds(subject)?), (finer, finer.thresholds(subject)?)])
+}
+
+fn triples(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
+    let mut worst: Option<(WorstForm, [[i64; 3]; 2], Block)> = None;
+    let (mut tests, mut n) = (0_u64, 0);
+    for (block, values) in blocks(subject, draw, TRIPLES.id)? {
+        n += values.len() as u64;
+        for shape in shapes() {
+            let [second, third] = shape;
+            let Ok(found) = forms::worst_form(together(&block, &values, [[0; 3], second, third])) else {
+                continue;
+            };
+            tests += found.tests;
+            if worst.as_ref().is_none_or(|(least, ..)| found.p < least.p) {
+                worst = Some((found, shape, block));
+            }
         }
     }
-    let Some((found, shape)) = worst else {
+    let Some((found, shape, block)) = worst else {
         return Ok(Trial::without(Conclusion::Inconclusive, "the block has no triples"));
     };
     let tests = tests as f64;
@@ -129,47 +137,50 @@ fn triples(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
         conclusion: Conclusion::Probability((tests * found.p).min(1.0)),
         statistic: Some(found.strength),
         statistic_name: format!("length of the mean phase, worst of {tests}"),
-        n: values.len() as u64,
+        n,
         effect: Some(found.strength),
         effect_name: "length of the mean phase",
         detectable: Some((bound + error) / (found.n as f64).sqrt()),
         seen: format!(
-            "octave {}: {a} h + {b} h' + {c} h'' prefers some values modulo 1, h' and h'' being {:?} and {:?} cells away \
-             from h: its mean phase is {:.3} long",
-            block.octave, shape[0], shape[1], found.strength
+            "octave {}, lerp factor {}: {a} h + {b} h' + {c} h'' prefers some values modulo 1, h' and h'' being {:?} and \
+             {:?} cells away from h: its mean phase is {:.3} long",
+            block.octave, block.fraction, shape[0], shape[1], found.strength
         ),
         evidence: Evidence::None,
     })
 }
 
 fn squares(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
-    let mut rng = draw.rng(SQUARES.id);
-    let block = Block::draw(cube(draw.samples(COMBINED_CELLS).ilog2(), &mut rng), &mut rng);
-    let values = block.thresholds(subject)?;
-    let mut evidence = Vec::new();
+    let (mut evidence, mut n) = (Vec::new(), 0);
     let fraction = |sum: f64| sum - sum.floor();
-    for (name, first, second) in [("xy", 0, 1), ("xz", 0, 2), ("yz", 1, 2)] {
-        for [width, height] in SIDES {
-            let (a, b) = (along(first, width), along(second, height));
-            let corners = together(&block, &values, [[0; 3], a, b, plus(a, b)]);
-            let counts = histogram(corners.map(|[h, ha, hb, hab]| fraction(h - ha - hb + hab)));
-            evidence.push(NamedHistogram::new(format!("{width} x {height} cells in {name}"), &counts));
+    let blocks = blocks(subject, draw, SQUARES.id)?;
+    let octave = blocks[0].0.octave;
+    for (block, values) in blocks {
+        n += values.len() as u64;
+        let at = if block.fraction == 0.0 { "" } else { " between two octaves" };
+        for (name, first, second) in [("xy", 0, 1), ("xz", 0, 2), ("yz", 1, 2)] {
+            for [width, height] in SIDES {
+                let (a, b) = (along(first, width), along(second, height));
+                let corners = together(&block, &values, [[0; 3], a, b, plus(a, b)]);
+                let counts = histogram(corners.map(|[h, ha, hb, hab]| fraction(h - ha - hb + hab)));
+                evidence.push(NamedHistogram::new(format!("{width} x {height} cells in {name}{at}"), &counts));
+            }
         }
+        let [x, y, z] = [along(0, 1), along(1, 1), along(2, 1)];
+        let corners = [[0; 3], x, y, z, plus(x, y), plus(x, z), plus(y, z), plus(x, plus(y, z))];
+        let sums = together(&block, &values, corners)
+            .map(|[h, x, y, z, xy, xz, yz, xyz]| fraction(h - x - y - z + xy + xz + yz - xyz));
+        evidence.push(NamedHistogram::new(format!("corners of a cube{at}"), &histogram(sums)));
     }
-    let [x, y, z] = [along(0, 1), along(1, 1), along(2, 1)];
-    let corners = [[0; 3], x, y, z, plus(x, y), plus(x, z), plus(y, z), plus(x, plus(y, z))];
-    let sums = together(&block, &values, corners)
-        .map(|[h, x, y, z, xy, xz, yz, xyz]| fraction(h - x - y - z + xy + xz + yz - xyz));
-    evidence.push(NamedHistogram::new("corners of a cube", &histogram(sums)));
     let tests: Vec<_> =
         evidence.iter().filter_map(|corners| chi_square::uniform(&corners.counts).ok()).collect();
     let worst = tests.iter().enumerate().min_by(|a, b| a.1.p.total_cmp(&b.1.p));
     let seen = worst.map_or_else(String::new, |(index, test)| {
         format!(
-            "octave {}, {}: the sum of the corners with alternating signs is not uniform modulo 1, chi-square {:.0} over {} \
-             dof",
-            block.octave, evidence[index].name, test.statistic, test.dof
+            "octave {octave}, {}: the sum of the corners with alternating signs is not uniform modulo 1, chi-square {:.0} \
+             over {} dof",
+            evidence[index].name, test.statistic, test.dof
         )
     });
-    Ok(Trial::worst_of(&tests, values.len() as u64, seen, Evidence::Histograms(evidence)))
+    Ok(Trial::worst_of(&tests, n, seen, Evidence::Histograms(evidence)))
 }

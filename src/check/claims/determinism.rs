@@ -134,9 +134,8 @@ fn drawn_anew(subject: &Subject<'_>, point: &Fragment, rng: &mut Xoshiro256PlusP
     let mut within = |[low, high]: [f64; 2]| low + (high - low) * part();
     let mut place = || DVec3::from_array([0; 3].map(|_| within([-ARGUMENT_REACH, ARGUMENT_REACH])));
     let (world, eye) = (place(), place());
-    let periods = u32::MAX / subject.frames;
     // One half among the first frames, the other anywhere.
-    let last = if within([0.0, 1.0]) < 0.5 { ARGUMENT_FRAMES.min(periods) } else { periods };
+    let last = if within([0.0, 1.0]) < 0.5 { ARGUMENT_FRAMES } else { u32::MAX };
     Fragment {
         footprint: point.footprint,
         world,
@@ -144,7 +143,7 @@ fn drawn_anew(subject: &Subject<'_>, point: &Fragment, rng: &mut Xoshiro256PlusP
         pixel: dvec2(within(ARGUMENT_PIXELS).floor() + 0.5, within(ARGUMENT_PIXELS).floor() + 0.5),
         texcoord: dvec2(within(ARGUMENT_TEXCOORDS), within(ARGUMENT_TEXCOORDS)),
         lod: within(ARGUMENT_LODS),
-        frame: (within([0.0, 1.0]) * f64::from(last)) as u32 * subject.frames,
+        frame: subject.frames.first_again((within([0.0, 1.0]) * f64::from(last)) as u32),
         layer: within([0.0, ARGUMENT_LAYERS]) as u32,
     }
 }

@@ -441,7 +441,7 @@ fn continuity(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
             let [dpdx, dpdy] = sampler.derivatives(octave, &mut rng);
             let first = sampler.at(position, dpdx, dpdy, &mut rng);
             // A threshold that is spread over frames goes around the unit interval; in its first stratum it does not.
-            let first = Fragment { frame: first.frame / subject.frames * subject.frames, ..first };
+            let first = Fragment { frame: subject.frames.first_again(first.frame), ..first };
             views.extend((0..VIEWS).map(|view| {
                 let closer = libm::exp2(-(view as f64) / (VIEWS - 1) as f64);
                 let [dpdx, dpdy] = [dpdx * closer, dpdy * closer];

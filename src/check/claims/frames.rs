@@ -8,7 +8,7 @@ use crate::check::predict::PairLaw;
 use crate::check::shrink::{at, shrunk};
 use crate::check::tolerance::{ALPHAS, WIDE};
 use crate::check::trial::reject_outsiders;
-use crate::check::{Attempt, Claim, Conclusion, Draw, Evidence, Promise, Subject, Trial, Verdict};
+use crate::check::{Attempt, Claim, Conclusion, Draw, Evidence, Frames, Promise, Subject, Trial, Verdict};
 use crate::scene::Fragment;
 use crate::stats::normal;
 use std::collections::HashMap;
@@ -25,6 +25,19 @@ const FEWER_POINTS: usize = 16;
 /// What roundings of `f32` leave between two thresholds of one point in different strata: the sum, the part after the
 /// point and the clamp at 2^-24.
 const STRATUM_ROUNDING: f64 = 1.0 / 4_194_304.0;
+
+/// Points whose steps through a sequence are compared.
+const SEQUENCE_POINTS: usize = 1 << 10;
+
+/// Frames from the first one on over which a sequence is followed.
+const SEQUENCE_FRAMES: u32 = 256;
+
+/// What roundings leave between the steps of two points: a sum of the threshold and a multiple of a frame below 256, both in
+/// `f32`.
+const SEQUENCE_ROUNDING: f64 = 1.0 / 32_768.0;
+
+/// The widest gap that a sequence may leave, in mean distances: what the golden ratio and reversed digits stay below.
+const WIDEST_GAP: f64 = 2.0;
 
 /// Pixels by which the image moves in a frame or period where the noise of one pixel is followed.
 const DRIFT: f64 = 0.15;
@@ -58,6 +71,17 @@ pub const STRATIFIED: Claim = Claim {
     expected: Verdict::Consistent,
     promise: Some(Promise::Linear(8.0e-3)),
     run: stratified,
+};
+
+/// A threshold that goes through a sequence takes the same steps everywhere, and they fill the interval.
+pub const SEQUENCE: Claim = Claim {
+    id: "frames.sequence",
+    anchor: "not in the paper",
+    statement: "where thresholds go through a sequence of frames, all points take the same step, modulo 1, from the first frame to \
+                any other; and 8, 16, 32 and 64 frames that follow each other leave no gap of more than twice their mean distance",
+    expected: Verdict::Consistent,
+    promise: Some(Promise::Linear(8.0e-3)),
+    run: sequence,
 };
 
 /// What a pixel shows while the surface moves under it.
@@ -95,8 +119,11 @@ fn in_frame(subject: &Subject<'_>, points: &[Fragment], frame: u32) -> Vec<f64> 
 
 fn unchanging(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     let points = fragments_everywhere(subject, draw, STATIC.id);
-    // Whole periods from the first frame, as far as frames can be counted.
-    let whole = |frame: u32| frame.min(u32::MAX / subject.frames) * subject.frames;
+    if subject.frames == Frames::Sequence {
+        let reason = "the subject claims to go through a sequence of frames";
+        return Ok(Trial::without(Conclusion::NotApplicable, reason));
+    }
+    let whole = |frame: u32| subject.frames.period_start(frame);
     let in_frames = |points: &[Fragment], frames: &[u32]| {
         frames.iter().map(|&frame| in_frame(subject, points, frame)).collect::<Vec<_>>()
     };
@@ -110,17 +137,17 @@ fn unchanging(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
         )
     };
     let mut rng = draw.rng("frames.static, more frames");
-    let any = (0..MORE_FRAMES).map(|_| any_frame(&mut rng) / subject.frames);
-    let more: Vec<u32> = (0..MORE_FRAMES).chain(any).map(whole).collect();
+    let any = (0..MORE_FRAMES).map(|_| subject.frames.first_again(any_frame(&mut rng)));
+    let more: Vec<u32> = (0..MORE_FRAMES).map(whole).chain(any).collect();
     let some: Vec<Fragment> = points.iter().copied().step_by(FEWER_POINTS).collect();
     let (of_all, of_some) = (tried(&points, &FRAMES.map(whole)), tried(&some, &more));
     let holds = |trial: &Trial| trial.conclusion == Conclusion::Exact { holds: true };
     Ok(if holds(&of_all) && !holds(&of_some) { of_some } else { of_all })
 }
 
-/// Thresholds of points in general position over one period from a frame on: frame by frame.
-fn period(subject: &Subject<'_>, points: &[Fragment], from: u32) -> Attempt<Vec<Vec<f64>>> {
-    let frames = (from..from + subject.frames).map(|frame| {
+/// Thresholds of points in general position over `n` frames from one on: frame by frame.
+fn over(subject: &Subject<'_>, points: &[Fragment], from: u32, n: u32) -> Attempt<Vec<Vec<f64>>> {
+    let frames = (from..from + n).map(|frame| {
         let values = in_frame(subject, points, frame);
         reject_outsiders(subject, points, &values).map(|()| values)
     });
@@ -138,16 +165,15 @@ fn general_points(subject: &Subject<'_>, n: usize, draw: &Draw, claim: &str) -> 
 }
 
 fn stratified(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
-    if subject.frames == 1 {
-        return no_strata();
-    }
+    let Frames::Strata(n) = subject.frames else { return no_strata() };
+    let n = n.get();
     let points = general_points(subject, draw.samples(FRAME_POINTS / 8), draw, STRATIFIED.id);
-    let stratum = 1.0 / f64::from(subject.frames);
+    let stratum = 1.0 / f64::from(n);
     let (mut bad, mut largest, mut first) = (0_u64, 0.0_f64, None);
     // From the first frame on, and from one in the middle of a period.
     let halves = points.split_at(points.len() / 2);
     let errors = |points: &[Fragment], from: u32| -> Attempt<Vec<f64>> {
-        let frames = period(subject, points, from)?;
+        let frames = over(subject, points, from, n)?;
         let error = |at: usize| {
             let mut values: Vec<f64> = frames.iter().map(|frame| frame[at]).collect();
             values.sort_unstable_by(f64::total_cmp);
@@ -158,7 +184,7 @@ fn stratified(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
         };
         Ok((0..points.len()).map(error).collect())
     };
-    for (points, from) in [(halves.0, 0), (halves.1, 4 * subject.frames + subject.frames / 2)] {
+    for (points, from) in [(halves.0, 0), (halves.1, 4 * n + n / 2)] {
         for (point, error) in points.iter().zip(errors(points, from)?) {
             largest = largest.max(error);
             if error > STRATUM_ROUNDING {
@@ -174,7 +200,7 @@ fn stratified(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
             found.into_iter().map(|error| error > STRATUM_ROUNDING).collect()
         });
         let shown = Fragment { frame: from, ..shown };
-        format!("; as in {}, in the {} frames from there on", at(subject, &shown), subject.frames)
+        format!("; as in {}, in the {n} frames from there on", at(subject, &shown))
     });
     let seen = format!(
         "{:.2} % of points do not take each stratum once{first}",
@@ -184,6 +210,85 @@ fn stratified(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     let counted =
         Trial::counted(bad, points.len() as u64, name, "share of points without every stratum", seen);
     Ok(Trial { statistic: Some(largest), ..counted })
+}
+
+/// The largest gap between `n` frames that follow each other, times `n`: 1 for strata, 1.9 at most for the golden ratio, below 2 for
+/// numbers with their digits turned around, some 4 for values drawn at random. And the first of the frames.
+fn widest_gap(steps: &[f64], n: usize) -> (f64, usize) {
+    let gap = |from: usize| {
+        let mut values = steps[from..from + n].to_vec();
+        values.sort_unstable_by(f64::total_cmp);
+        let around = values[0] + 1.0 - values[n - 1];
+        values.windows(2).map(|pair| pair[1] - pair[0]).fold(around, f64::max) * n as f64
+    };
+    (0..steps.len() / n)
+        .map(|window| (gap(window * n), window * n))
+        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .unwrap_or((0.0, 0))
+}
+
+fn sequence(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
+    if subject.frames != Frames::Sequence {
+        return Ok(Trial::without(
+            Conclusion::NotApplicable,
+            "the subject does not claim to go through a sequence of frames",
+        ));
+    }
+    let points = general_points(subject, draw.samples(SEQUENCE_POINTS), draw, SEQUENCE.id);
+    let mut rng = draw.rng("frames.sequence, frames");
+    let any = (0..MORE_FRAMES).map(|_| any_frame(&mut rng));
+    let frames: Vec<u32> = (0..SEQUENCE_FRAMES).chain(any).collect();
+    let first = in_frame(subject, &points, 0);
+    reject_outsiders(subject, &points, &first)?;
+    let (mut steps, mut bad, mut largest, mut worst_frame) = (Vec::new(), 0, 0.0_f64, None);
+    for &frame in &frames {
+        let values = in_frame(subject, &points, frame);
+        reject_outsiders(subject, &points, &values)?;
+        let step = |(value, first): (&f64, &f64)| (value - first).rem_euclid(1.0);
+        let found: Vec<f64> = values.iter().zip(&first).map(step).collect();
+        let common = common_step(&found);
+        let strays = |step: &&f64| {
+            let from = (*step - common).rem_euclid(1.0);
+            from.min(1.0 - from) > SEQUENCE_ROUNDING
+        };
+        let strays = found.iter().filter(strays).count() as u64;
+        if strays > 0 {
+            worst_frame.get_or_insert(frame);
+        }
+        bad += strays;
+        steps.push(common);
+    }
+    let consecutive = &steps[..SEQUENCE_FRAMES as usize];
+    let mut uneven = None;
+    for n in [8, 16, 32, 64] {
+        let (gap, from) = widest_gap(consecutive, n);
+        largest = largest.max(gap);
+        if gap > WIDEST_GAP {
+            uneven.get_or_insert(format!("; {n} frames from frame {from} on leave a gap of {gap:.2} mean distances"));
+        }
+    }
+    let n = points.len() as u64 * frames.len() as u64;
+    let stray = worst_frame.map_or(String::new(), |frame| format!(", first in frame {frame}"));
+    let seen = format!(
+        "{:.2} % of steps from the first frame are not those of the other points{stray}{}",
+        100.0 * bad as f64 / n as f64,
+        uneven.as_deref().unwrap_or_default()
+    );
+    // Steps that do not fill the interval are those of every point.
+    let bad = if uneven.is_some() { n } else { bad };
+    let counted = Trial::counted(bad, n, "largest gap, in mean distances", "share of steps that are wrong", seen);
+    Ok(Trial { statistic: Some(largest), ..counted })
+}
+
+/// The step around which the steps of points lie closest, modulo 1: that of the point with the most others within rounding.
+fn common_step(steps: &[f64]) -> f64 {
+    let mut sorted = steps.to_vec();
+    sorted.sort_unstable_by(f64::total_cmp);
+    let near = |at: usize| {
+        let (low, high) = (sorted[at] - SEQUENCE_ROUNDING, sorted[at] + SEQUENCE_ROUNDING);
+        sorted.partition_point(|&step| step <= high) - sorted.partition_point(|&step| step < low)
+    };
+    (0..sorted.len()).max_by_key(|&at| near(at)).map_or(0.0, |at| sorted[at])
 }
 
 /// A mean that was measured: its expectation, and the standard deviation of the mean.
@@ -262,7 +367,7 @@ fn serial(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
                 // The same pixel, where another point of the surface has come.
                 let there = here.moved(motion, subject.precision).fragment;
                 before.push(here.fragment);
-                after.push(Fragment { pixel: here.fragment.pixel, frame: lag * subject.frames, ..there });
+                after.push(Fragment { pixel: here.fragment.pixel, frame: subject.frames.period_start(lag), ..there });
             }
             let (old, new) = (subject.thresholds(&before), subject.thresholds(&after));
             reject_outsiders(subject, &before, &old)?;
@@ -306,15 +411,14 @@ fn variance(order: &[u32], weights: &[f64], alpha: f64) -> f64 {
 }
 
 fn average(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
-    if subject.frames == 1 {
-        return no_strata();
-    }
+    let Frames::Strata(strata) = subject.frames else { return no_strata() };
+    let strata = strata.get();
     let n = draw.samples(FRAME_POINTS);
     let points = general_points(subject, n, draw, AVERAGE.id);
-    let frames = period(subject, &points, 0)?;
-    let weights = exponential_weights(subject.frames);
+    let frames = over(subject, &points, 0, strata)?;
+    let weights = exponential_weights(strata);
     // The strata of the frames, counted from that of the first.
-    let strata = f64::from(subject.frames);
+    let strata = f64::from(strata);
     let order = |at: usize| -> Vec<u32> {
         let stratum = |frame: &Vec<f64>| ((frame[at] - frames[0][at]) * strata).round().rem_euclid(strata);
         frames.iter().map(|frame| stratum(frame) as u32).collect()

@@ -1,6 +1,6 @@
 //! Repeats of the hash at any distance, by all lags of whole blocks of cells.
 
-use crate::check::input::{Block, cube};
+use crate::check::input::{BETWEEN, Block, cube};
 use crate::check::tolerance::{POWER, SINGLE_LEVEL, VIEW};
 use crate::check::{Attempt, Claim, Conclusion, Draw, Evidence, Promise, Subject, Trial, Verdict};
 use crate::stats::lags::{self, Relation, WorstLag};
@@ -26,13 +26,16 @@ pub const LAGS: Claim = Claim {
     run: lags,
 };
 
-/// A compact block and three bars, one along each axis, each at a place and in an octave of its own.
+/// A compact block at two scales, and three bars, one along each axis, each at a place and in an octave of its own.
 fn blocks(draw: &Draw) -> Vec<(String, Block)> {
     let mut rng = draw.rng(LAGS.id);
     let compact = draw.samples(COMPACT_CELLS).min(MOST_CELLS);
     let bar = draw.samples_at_least(BAR_CELLS).min(MOST_CELLS);
     let compact = Block::draw(cube(compact.ilog2(), &mut rng), &mut rng);
-    let mut blocks = vec![("a compact block".to_owned(), compact)];
+    let mut blocks = vec![
+        ("a compact block".to_owned(), compact),
+        ("a compact block between two octaves".to_owned(), compact.seen_at(BETWEEN)),
+    ];
     for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
         let length = 2 * VIEW as usize;
         let across = bar.ilog2() - length.ilog2();

@@ -3,6 +3,7 @@
 pub mod atoms;
 pub mod avalanche;
 pub mod cells;
+pub mod cluster;
 pub mod combinations;
 pub mod continuity;
 pub mod coordinates;
@@ -106,12 +107,14 @@ pub const ALL: &[Claim] = &[
     flips::ROTATION,
     flips::TILT,
     flips::SKINNING,
+    cluster::CLUSTER,
     coordinates::OBJECT,
     determinism::TWO_PASSES,
     determinism::ARGUMENTS,
     determinism::DERIVATIVES,
     frames::STATIC,
     frames::STRATIFIED,
+    frames::SEQUENCE,
     frames::SERIAL,
     frames::AVERAGE,
     planes::AXIS_ALIGNED,

@@ -1,6 +1,6 @@
 //! Blocks of neighbouring cells of one octave.
 
-use crate::check::input::cell::{draw_octave, in_cell};
+use crate::check::input::cell::{between, draw_octave};
 use crate::check::input::patch::Start;
 use crate::check::tolerance::SPREAD;
 use crate::check::trial::reject_outsiders;
@@ -13,6 +13,10 @@ use rand::rngs::Xoshiro256PlusPlus;
 /// Cells that are evaluated at a time: their footprints fill some megabytes.
 const CELLS_AT_ONCE: usize = 1 << 16;
 
+/// The scale, in octaves above its own, at which a block is seen a second time: there a threshold is made of two hashes, and
+/// one that is sound for a single hash only is found out.
+pub(crate) const BETWEEN: f64 = 0.5;
+
 /// A block of cells of one octave.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Block {
@@ -22,6 +26,8 @@ pub(crate) struct Block {
     pub corner: DVec3,
     /// The octave.
     pub octave: i32,
+    /// How far its scale is from that of the octave to the next finer one, in [0, 1): at 0 the octave has all weight.
+    pub fraction: f64,
     /// Where the first cell is seen; each of a layer in a pixel of its own.
     pub start: Start,
 }
@@ -34,7 +40,18 @@ impl Block {
             let reach = SPREAD.max(side as f64);
             ((2.0 * seed::uniform01(rng) - 1.0) * reach - 0.5 * side as f64).floor()
         });
-        Self { size, corner: DVec3::from_array(corner), octave: draw_octave(rng), start: Start::draw(rng) }
+        Self {
+            size,
+            corner: DVec3::from_array(corner),
+            octave: draw_octave(rng),
+            fraction: 0.0,
+            start: Start::draw(rng),
+        }
+    }
+
+    /// Returns the same cells at another scale: none shares a cell of any finer octave with another.
+    pub fn seen_at(self, fraction: f64) -> Self {
+        Self { fraction, ..self }
     }
 
     /// Returns the number of cells.
@@ -42,7 +59,7 @@ impl Block {
         self.size.iter().product()
     }
 
-    /// Evaluates every cell once where its octave has all weight, the first axis the fastest.
+    /// Evaluates every cell once, the first axis the fastest.
     pub fn thresholds(&self, subject: &Subject<'_>) -> Attempt<Vec<f64>> {
         let [nx, ny, _] = self.size;
         let n = self.cells();
@@ -52,7 +69,7 @@ impl Block {
                 .map(|at| [at % nx, at / nx % ny, at / (nx * ny)].map(|index| index as f64))
                 .map(|index| {
                     let index = DVec3::from_array(index);
-                    let seen = self.start.seeing(in_cell(subject, self.corner + index, self.octave));
+                    let seen = self.start.seeing(between(subject, self.corner + index, self.octave, self.fraction));
                     Fragment { pixel: seen.pixel + index.truncate(), ..seen }
                 })
                 .collect();

@@ -40,9 +40,14 @@ pub(crate) fn at_scale(
 
 /// The footprint in a cell of octave `octave` where that octave has all weight.
 pub(crate) fn in_cell(subject: &Subject<'_>, cell: DVec3, octave: i32) -> Footprint<f64> {
+    between(subject, cell, octave, 0.0)
+}
+
+/// The footprint in a cell of octave `octave`, at a scale that is `fraction` octaves finer along every axis.
+pub(crate) fn between(subject: &Subject<'_>, cell: DVec3, octave: i32, fraction: f64) -> Footprint<f64> {
     let side = libm::exp2(f64::from(-octave));
     let position = (cell + 0.25) * side;
-    let scale = [f64::from(octave); 3];
+    let scale = [f64::from(octave) + fraction; 3];
     subject.precision.round(&at_scale(subject.variant, subject.hash_scale, position, scale))
 }
 

@@ -8,7 +8,7 @@ pub mod patch;
 pub mod sample;
 pub mod view;
 
-pub(crate) use block::{Block, cube};
+pub(crate) use block::{BETWEEN, Block, cube};
 pub(crate) use cell::{at_scale, draw_cell, draw_octave, in_cell, numerator, seen_in_cell};
 pub(crate) use motion::Motion;
 pub(crate) use patch::{Patch, Start, rotation};

@@ -2,7 +2,7 @@
 
 use super::defect::Specimen;
 use super::port::{Port, SOUND, ideal_hash};
-use crate::check::Subject;
+use crate::check::{Frames, Subject};
 use crate::check::subject::Precision;
 use crate::scene::Fragment;
 use crate::threshold::footprint::Footprint;
@@ -29,7 +29,7 @@ fn spread(last: u32, rule: fn(f64, u32, NonZeroU32) -> f64) -> Subject<'static> 
         Some(rule(chi, at.frame % count, count))
     };
     let mut subject = Subject::of_fragments("specimen", Precision::F64, Variant::Isotropic, threshold);
-    (subject.nested_phase, subject.frames) = (true, count.get());
+    (subject.nested_phase, subject.frames) = (true, Frames::Strata(count));
     subject
 }
 
@@ -80,7 +80,36 @@ pub(super) const FAMILY: &[Specimen] = &[
         claim: "frames.stratified",
         subject: || {
             let mut subject = SEEDED.subject();
-            subject.frames = 8;
+            subject.frames = Frames::Strata(NonZeroU32::MIN.saturating_add(7));
+            subject
+        },
+    },
+    Specimen {
+        name: "sequence-drawn-anew",
+        defect: "thresholds are said to go through a sequence of frames, and are drawn anew in each",
+        mend: "add the same number to all thresholds of a frame, frame * 0.618034, and take the part after the point",
+        claim: "frames.sequence",
+        subject: || {
+            let mut subject = SEEDED.subject();
+            subject.frames = Frames::Sequence;
+            subject
+        },
+    },
+    Specimen {
+        name: "sequence-of-short-steps",
+        defect: "the step from frame to frame is 0.1: ten frames and no more differ, with gaps between them for whatever history",
+        mend: "take a step whose multiples fill the interval, 0.618034",
+        claim: "frames.sequence",
+        subject: || {
+            let sound = SOUND.subject();
+            let threshold = move |at: &Fragment| {
+                let chi = sound.threshold(Fragment { frame: 0, ..*at })?;
+                let moved = chi + 0.1 * f64::from(at.frame);
+                Some(1.0 - (1.0 - moved).rem_euclid(1.0))
+            };
+            let mut subject =
+                Subject::of_fragments("specimen", Precision::F64, Variant::Isotropic, threshold);
+            (subject.nested_phase, subject.frames) = (true, Frames::Sequence);
             subject
         },
     },

@@ -73,4 +73,30 @@ pub(super) const FAMILY: &[Specimen] = &[
             reading(|at| Footprint { position: at.footprint.position.abs(), ..at.footprint }).subject()
         },
     },
+    Specimen {
+        name: "noise-by-level-of-detail",
+        defect: "from the fourth level of the texture on another noise is taken, so that thresholds are redrawn where a level begins",
+        mend: "leave the level of detail out of the hash",
+        claim: "determinism.arguments",
+        subject: || {
+            let read = |at: &Fragment| {
+                let beside = if at.lod >= 4.0 { 0.31 } else { 0.0 };
+                Footprint { position: at.footprint.position + beside, ..at.footprint }
+            };
+            reading(read).subject()
+        },
+    },
+    Specimen {
+        name: "other-noise-on-odd-pixels",
+        defect: "every second column of the screen has another noise, as for a dissolve in a checkerboard, so that noise swims",
+        mend: "leave the pixel out of the hash",
+        claim: "determinism.arguments",
+        subject: || {
+            let read = |at: &Fragment| {
+                let beside = if at.pixel.x.rem_euclid(2.0) >= 1.0 { 17.0 } else { 0.0 };
+                Footprint { position: at.footprint.position + beside, ..at.footprint }
+            };
+            reading(read).subject()
+        },
+    },
 ];

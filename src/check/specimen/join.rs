@@ -22,13 +22,13 @@ fn fraction(value: f64) -> f64 {
     value - value.floor()
 }
 
-/// A dithered threshold that draws its choice with a salt.
-fn dithered(salt: fn(&Footprint<f64>) -> i32) -> Subject<'static> {
+/// A dithered threshold that draws its choice from the coarse cell and the view in its own way.
+fn dithered(coin: fn([f64; 3], &Footprint<f64>) -> f64) -> Subject<'static> {
     let mut subject = of_footprint(Precision::F64, move |found| {
         let scales = scales::robust_scales::<f64>(Variant::Isotropic, found, 1.0, Repairs::ALL);
         let (octave, fraction) = (scales.octave[0], scales.fraction[0]);
         let coarse = cell(found.position, octave);
-        if fraction > ideal_hash(coarse, salt(found)) {
+        if fraction > coin(coarse, found) {
             ideal_hash(cell(found.position, octave + 1), octave + 1)
         } else {
             ideal_hash(coarse, octave)
@@ -120,11 +120,18 @@ pub(super) const FAMILY: &[Specimen] = &[
         mend: "draw the choice from the coarse cell",
         claim: "flips.zoom",
         subject: || {
-            dithered(|found| {
+            dithered(|coarse, found| {
                 let view = found.dpdy.x.to_bits() ^ found.dpdy.y.to_bits().rotate_left(17);
-                (view ^ (view >> 32)) as i32
+                ideal_hash(coarse, (view ^ (view >> 32)) as i32)
             })
         },
+    },
+    Specimen {
+        name: "dither-in-blocks",
+        defect: "the choice between octaves is drawn once for a block of eight cells along each axis, all of which flip together",
+        mend: "draw the choice from the coarse cell itself",
+        claim: "flips.cluster",
+        subject: || dithered(|coarse, _| ideal_hash(coarse.map(|index| (index / 8.0).floor()), 1000)),
     },
     Specimen {
         name: "one-weight-for-three-scales",
