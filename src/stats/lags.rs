@@ -54,12 +54,13 @@ pub struct WorstLag {
 
 /// Finds the circular lag at which the values of a block are least independent.
 ///
-/// `values` holds `size[0] * size[1] * size[2]` values in `[0, 1]`, the first axis the fastest.
+/// `values` holds `size[0] * size[1] * size[2]` values in `[0, 1]`, the first axis the fastest. Up to `tolerated`, in `[0, 1]`, a
+/// correlation or a mean phase is no tie: the p-value is a bound of the probability of what was found if the true one is as large.
 ///
 /// # Errors
 /// [`StatsError::LengthMismatch`] if the block has another size, [`StatsError::Empty`] if no lag is left,
 /// [`StatsError::Constant`] if all values are equal, [`StatsError::NotFinite`] with a value that is NaN or infinite.
-pub fn worst_lag(values: &[f64], size: [usize; 3]) -> Result<WorstLag, StatsError> {
+pub fn worst_lag(values: &[f64], size: [usize; 3], tolerated: f64) -> Result<WorstLag, StatsError> {
     let n = size.iter().product();
     if values.len() != n {
         return Err(StatsError::LengthMismatch { left: values.len(), right: n });
@@ -68,7 +69,7 @@ pub fn worst_lag(values: &[f64], size: [usize; 3]) -> Result<WorstLag, StatsErro
         return Err(StatsError::NotFinite { value });
     }
     let mut planner = FftPlanner::new();
-    let mut search = Search { size, tests: 0, worst: None };
+    let mut search = Search { size, tolerated, tests: 0, worst: None };
     let plain = spectrum(values, size, &mut planner, |value| Complex64::new(value, 0.0))?;
     let correlations = transform(powers(&plain, None), size, FftDirection::Inverse, &mut planner);
     // Half of the two-sided tail belongs to each sign; the score is the square, which orders alike.
@@ -132,6 +133,7 @@ fn powers(real: &[Complex64], imaginary: Option<&[Complex64]>) -> Vec<Complex64>
 /// What has been found so far.
 struct Search {
     size: [usize; 3],
+    tolerated: f64,
     tests: u64,
     worst: Option<WorstLag>,
 }
@@ -159,11 +161,15 @@ impl Search {
         if score < 0.0 {
             return;
         }
-        let p = p(score);
+        let n = sums.len() as f64;
+        let strength = (score / n).sqrt();
+        // A normal score, or the length of a complex one, around the tolerated mean: the tail of the latter is below that of its
+        // distance from there (Marcum's Q).
+        let beyond = (strength - self.tolerated).max(0.0);
+        let p = p(beyond * beyond * n);
         if self.worst.is_none_or(|found| p < found.p) {
             let [x, y, z] = place(at, self.size);
             let [nx, ny, nz] = self.size;
-            let strength = (score / sums.len() as f64).sqrt();
             let lag = [signed(x, nx), signed(y, ny), signed(z, nz)];
             self.worst = Some(WorstLag { lag, relation, strength, p, tests: 0 });
         }
@@ -184,7 +190,7 @@ mod tests {
     fn sums_are_those_of_the_definition() {
         let size = [8, 4, 2];
         let values = uniform(0, 64);
-        let found = worst_lag(&values, size).unwrap();
+        let found = worst_lag(&values, size, 0.0).unwrap();
         let mean = values.iter().sum::<f64>() / 64.0;
         let variance = values.iter().map(|v| (v - mean) * (v - mean)).sum::<f64>() / 64.0;
         let phase = |harmonic: u8, v: f64| Complex64::cis(TAU * f64::from(harmonic) * v);
@@ -238,7 +244,7 @@ mod tests {
             (|a, _| 1.0 - a, Relation::Sum { harmonic: 1 }),
             (|a, b| 0.5 * (a + (2.0 * b).floor()), Relation::Correlation),
         ] {
-            let found = worst_lag(&tied(tie), size).unwrap();
+            let found = worst_lag(&tied(tie), size, 0.0).unwrap();
             let (there, back) = ([3, 2, 1], [-3, -2, -1]);
             assert!(found.lag == there || found.lag == back, "{found:?} is not {relation:?}");
             assert!(found.p * (found.tests as f64) < 1e-9, "{found:?}");
@@ -248,7 +254,7 @@ mod tests {
     #[test]
     fn independent_values_are_calibrated() {
         let p = |seed: u64| {
-            let found = worst_lag(&uniform(seed, 1 << 10), [16, 8, 8]).unwrap();
+            let found = worst_lag(&uniform(seed, 1 << 10), [16, 8, 8], 0.0).unwrap();
             found.p * found.tests as f64
         };
         let below = |level: f64| (100..600).filter(|&seed| p(seed) < level).count();

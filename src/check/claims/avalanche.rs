@@ -2,9 +2,9 @@
 
 use crate::check::evidence::ComparedShare;
 use crate::check::input::seen_in_cell;
-use crate::check::tolerance::{POWER, SINGLE_LEVEL, VIEW};
+use crate::check::tolerance::{INDEX_LIMIT, POWER, SINGLE_LEVEL, VIEW};
 use crate::check::trial::reject_outsiders;
-use crate::check::{Attempt, Claim, Conclusion, Draw, Evidence, Promise, Subject, Trial, Verdict};
+use crate::check::{Attempt, Claim, Conclusion, Draw, Evidence, Promise, Reach, Subject, Trial, Verdict};
 use crate::scene::Fragment;
 use crate::stats::{binomial, power, seed};
 use glam::DVec3;
@@ -12,11 +12,15 @@ use glam::DVec3;
 /// Cells in which each bit is turned over: an error of 0.056 in a share of turned bits shows.
 const TURNED_CELLS: usize = 1 << 13;
 
-/// Most of those cells, whatever budget and round: each has 36 others.
+/// Most of those cells, whatever budget and round: each has 60 others.
 const MOST_TURNED_CELLS: usize = 1 << 16;
 
-/// Bits of an index that are turned over: as far as a repeat counts, below [`VIEW`] cells.
-const INDEX_BITS: u32 = VIEW.ilog2();
+/// Bits of an index that are turned over: all that cells of an `f32` position have ([`INDEX_LIMIT`]). One that is lost makes every
+/// object of that size repeat along an axis, which no counting asks of a hash.
+const INDEX_BITS: u32 = INDEX_LIMIT.ilog2();
+
+/// The same for a listing: as far as it holds.
+const LISTING_BITS: u32 = VIEW.ilog2();
 
 /// Bits of the octave that are turned over, in two's complement.
 const OCTAVE_BITS: u32 = 4;
@@ -32,12 +36,16 @@ const THRESHOLD_BITS: u32 = 10;
 pub const INDEX: Claim = Claim {
     id: "hash.avalanche",
     anchor: "§5 (hash outputs replace uniform random numbers); not in the paper",
-    statement: "turning over one bit of an index, up to 2048 cells, turns over each of the first ten bits of the threshold in half \
+    statement: "turning over one bit of an index, up to 524,288 cells, turns over each of the first ten bits of the threshold in half \
                 of the cells, and leaves it where it is no more often than another cell would",
     expected: Verdict::Consistent,
     promise: Some(Promise::Root(0.15)),
     run: |subject, draw| {
-        let bits = (0..3).flat_map(|axis| (0..INDEX_BITS).map(move |bit| Turned::Index { axis, bit }));
+        let most = match draw.reach {
+            Reach::Whole => INDEX_BITS,
+            Reach::Listings => LISTING_BITS,
+        };
+        let bits = (0..3).flat_map(|axis| (0..most).map(move |bit| Turned::Index { axis, bit }));
         avalanche(subject, draw, INDEX.id, &bits.collect::<Vec<_>>())
     },
 };

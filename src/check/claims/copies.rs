@@ -29,6 +29,15 @@ const NEST_SIDE: usize = 20;
 /// Octaves of the nest: to both sides of zero, so that a sign that is lost shows.
 const NEST_OCTAVES: core::ops::RangeInclusive<i32> = -4..=4;
 
+/// Octaves in which the same few cells are looked at: all of the domain.
+const LADDER_OCTAVES: core::ops::RangeInclusive<i32> = -20..=20;
+
+/// Cells that are looked at in all of these.
+const LADDER_CELLS: i64 = 64;
+
+/// Cells all of whose images under the symmetries about the origin are looked at.
+const ORBITS: usize = 128;
+
 /// Two thresholds are equal if they differ by no more: a device has no lerp factor of exactly 0.
 const EQUAL: f64 = 1.0 / 1_048_576.0;
 
@@ -81,8 +90,8 @@ pub const SYMMETRY: Claim = Claim {
 pub const OCTAVE_COPIES: Claim = Claim {
     id: "hash.octave_copies",
     anchor: "§5.4.2 (two scales); not in the paper",
-    statement: "no octave from -4 to 4 repeats another one: neither cells of the same index, nor those of twice, four times or eight \
-                times the index where the cells are as much smaller",
+    statement: "no octave repeats another one: neither cells of the same index, from octave -20 to 20, nor those of twice, four times \
+                or eight times the index where the cells are as much smaller, from -4 to 4",
     expected: Verdict::Consistent,
     promise: Some(Promise::Linear(0.75)),
     run: octave_copies,
@@ -296,7 +305,33 @@ fn symmetry(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
         let maps: Vec<Map> = Map::symmetries().filter(is_for_this).collect();
         found.explore(&set, |_, _| &maps);
     }
+    // What lies around the origin, and holds for some octants only, shows among images of few cells.
+    let orbits = evaluated(subject, &orbits(&mut rng))?;
+    n += orbits.len();
+    let maps: Vec<Map> = Map::symmetries().collect();
+    found.explore(&orbits, |_, _| &maps);
     confirmed(subject, found, n, sure_share(draw), &mut rng)
+}
+
+/// Cells of one octave with all their images: axes exchanged, and each mirrored in the middle of cell 0 or in its lower face.
+fn orbits(rng: &mut Xoshiro256PlusPlus) -> Vec<([i64; 3], i32)> {
+    let octave = draw_octave(rng);
+    let mut cells = Vec::new();
+    let mut seen = FxHashSet::default();
+    for _ in 0..ORBITS {
+        let cell = [0; 3].map(|_| libm::exp2(f64::from(VIEW.ilog2()) * seed::uniform01(rng)) as i64);
+        for map in Map::symmetries().chain([Map::IDENTITY]) {
+            let image = map.apply(cell);
+            for shifted in 0..8 {
+                let below = |axis: usize| i64::from(shifted >> axis & 1 == 1 && image[axis] < 0);
+                let image = [0, 1, 2].map(|axis| image[axis] - below(axis));
+                if seen.insert(image) {
+                    cells.push((image, octave));
+                }
+            }
+        }
+    }
+    cells
 }
 
 /// The share of cells that a relation within an octave has to hold for to be among the candidates, at the largest distance: there
@@ -332,6 +367,14 @@ fn octave_copies(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
         n += set.len();
         found.explore(&set, |coarse, fine| &between[(fine - coarse) as usize]);
     }
+    // The same few cells in every octave.
+    let few = [0; 3].map(|_| ((2.0 * seed::uniform01(&mut rng) - 1.0) * SPREAD) as i64);
+    let ladder: Vec<_> = (0..LADDER_CELLS)
+        .flat_map(|at| LADDER_OCTAVES.map(move |octave| ([few[0] + at, few[1] + at % 3, few[2]], octave)))
+        .collect();
+    let set = evaluated(subject, &ladder)?;
+    n += set.len();
+    found.explore(&set, |coarse, fine| if coarse == fine { &[] } else { &[Map::IDENTITY] });
     // The nearest octaves whose cells are eight times as small have the fewest pairs.
     let pairs = (NEST_SIDE as f64 / 8.0).powi(3);
     confirmed(subject, found, n, SURE_PAIRS / pairs, &mut rng)

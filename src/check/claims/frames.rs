@@ -19,6 +19,9 @@ const FRAMES: [u32; 6] = [0, 1, 2, 7, 1024, u32::MAX];
 /// Frames that follow each other from the first one, and as many at random, at which some of the points are asked.
 const MORE_FRAMES: u32 = 64;
 
+/// Frames of any size from which a period is followed.
+const MORE_STARTS: usize = 14;
+
 /// One point in so many of those.
 const FEWER_POINTS: usize = 16;
 
@@ -170,8 +173,11 @@ fn stratified(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     let points = general_points(subject, draw.samples(FRAME_POINTS / 8), draw, STRATIFIED.id);
     let stratum = 1.0 / f64::from(n);
     let (mut bad, mut largest, mut first) = (0_u64, 0.0_f64, None);
-    // From the first frame on, and from one in the middle of a period.
-    let halves = points.split_at(points.len() / 2);
+    // From the first frame on, from one in the middle of a period, and from any.
+    let mut rng = draw.rng("frames.stratified, more frames");
+    let mut starts = vec![0, 4 * n + n / 2];
+    starts.extend((0..MORE_STARTS).map(|_| any_frame(&mut rng).min(u32::MAX - n)));
+    let parts = points.chunks(points.len().div_ceil(starts.len()));
     let errors = |points: &[Fragment], from: u32| -> Attempt<Vec<f64>> {
         let frames = over(subject, points, from, n)?;
         let error = |at: usize| {
@@ -184,7 +190,7 @@ fn stratified(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
         };
         Ok((0..points.len()).map(error).collect())
     };
-    for (points, from) in [(halves.0, 0), (halves.1, 4 * n + n / 2)] {
+    for (points, from) in parts.zip(starts) {
         for (point, error) in points.iter().zip(errors(points, from)?) {
             largest = largest.max(error);
             if error > STRATUM_ROUNDING {

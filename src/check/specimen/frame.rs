@@ -121,6 +121,24 @@ pub(super) const FAMILY: &[Specimen] = &[
         subject: || spread(6, |chi, frame, n| stratified(chi, alternating_literal(frame, n), n)),
     },
     Specimen {
+        name: "frame-through-f32",
+        defect: "the frame becomes a number of 24 bits before its stratum is taken: from frame 2^24 on strata are left out",
+        mend: "take the frame modulo the number of strata in whole numbers",
+        claim: "frames.stratified",
+        subject: || {
+            let sound = SOUND.subject();
+            let count = NonZeroU32::MIN.saturating_add(7);
+            let threshold = move |at: &Fragment| {
+                let chi = sound.threshold(Fragment { frame: 0, ..*at })?;
+                Some(stratified(chi, alternating(at.frame as f32 as u32, count), count))
+            };
+            let mut subject =
+                Subject::of_fragments("specimen", Precision::F64, Variant::Isotropic, threshold);
+            (subject.nested_phase, subject.frames) = (true, Frames::Strata(count));
+            subject
+        },
+    },
+    Specimen {
         name: "order-by-threshold",
         defect: "fragments whose threshold is above 1/2 take the strata backwards, so that their average is biased",
         mend: "take the strata in one order everywhere",

@@ -177,4 +177,66 @@ pub(super) const FAMILY: &[Specimen] = &[
             .subject()
         },
     },
+    Specimen {
+        name: "octave-of-four-bits",
+        defect: "four bits of the octave are hashed, so that an object of 65536 times the size has the same noise",
+        mend: "hash the octave as a whole number",
+        claim: "hash.octave_copies",
+        subject: || hashed_by(|index, octave| ideal_hash(index, octave.rem_euclid(16))).subject(),
+    },
+    Specimen {
+        name: "octave-ends-at-minus-16",
+        defect: "octaves below -16 count as -16, so that in very large cells objects of twice the size have the same noise",
+        mend: "hash the octave as a whole number",
+        claim: "hash.octave_copies",
+        subject: || hashed_by(|index, octave| ideal_hash(index, octave.max(-16))).subject(),
+    },
+    Specimen {
+        name: "index-of-sixteen-bits",
+        defect: "the index along z is packed into 16 bits, so the noise repeats after 65536 cells",
+        mend: "hash whole indices",
+        claim: "hash.avalanche",
+        subject: || {
+            hashed_by(|[x, y, z], octave| ideal_hash([x, y, z.rem_euclid(65536.0)], octave)).subject()
+        },
+    },
+    Specimen {
+        name: "one-octant-mirrored",
+        defect: "where all three indices are negative they are turned around, so that one octant is the image of another",
+        mend: "hash indices in two's complement",
+        claim: "cells.symmetry",
+        subject: || {
+            hashed_by(|index, octave| {
+                let is_folded = index.iter().all(|&c| c < 0.0);
+                ideal_hash(if is_folded { index.map(|c| -1.0 - c) } else { index }, octave)
+            })
+            .subject()
+        },
+    },
+    Specimen {
+        name: "turned-about-the-diagonal",
+        defect: "three hashes, of x and y, y and z, z and x, are mixed: turning the axes in a ring leaves the noise as it is",
+        mend: "let the hash read each coordinate by itself",
+        claim: "cells.symmetry",
+        subject: || {
+            hashed_by(|[x, y, z], octave| {
+                let two = |a, b| (of_two(a, b, octave) * f64::from(1_u32 << 24)).floor();
+                ideal_hash([two(x, y) + two(y, z) + two(z, x), 0.0, 0.0], octave)
+            })
+            .subject()
+        },
+    },
+    Specimen {
+        name: "row-on-the-axis",
+        defect: "where y and z are in cell 0 the values along x are multiples of the golden ratio: each tells the next",
+        mend: "hash the cells on an axis as all others",
+        claim: "hash.lags",
+        subject: || {
+            hashed_by(|[x, y, z], octave| {
+                let turned = 0.618_033_988_749_895 * x + ideal_hash([0.0; 3], octave);
+                if y == 0.0 && z == 0.0 { turned - turned.floor() } else { ideal_hash([x, y, z], octave) }
+            })
+            .subject()
+        },
+    },
 ];
