@@ -7,6 +7,8 @@
 // Its results are what a reader of the terminal wants.
 #![allow(clippy::print_stdout)]
 
+mod plain;
+
 use hashed_alpha::threshold::batch::{Batch, Bins, ColumnBuffer, Isa, Lane, Model, Tier};
 use hashed_alpha::threshold::cdf::CdfForm;
 use hashed_alpha::threshold::footprint::Footprint;
@@ -75,6 +77,7 @@ fn kernels(count: usize) -> Vec<(String, Kernel)> {
     for (name, model) in models {
         all.push((format!("scalar-{name}"), one_by_one(model, count)));
     }
+    all.push(("scalar-plain-robust".to_owned(), plainly(count)));
     let (x, of_x) = (angles.clone(), scales.clone());
     all.push(("scalar-sine".to_owned(), Box::new(move || x.iter().for_each(|&x| see(sin_f32(x))))));
     all.push(("scalar-logarithm".to_owned(), Box::new(move || of_x.iter().for_each(|&x| see(log2_f32(x))))));
@@ -130,6 +133,16 @@ fn footprints<R: Real>(count: usize) -> impl Iterator<Item = Footprint<R>> {
 fn one_by_one(model: Model, count: usize) -> Kernel {
     let footprints: Vec<Footprint<f32>> = footprints(count).collect();
     Box::new(move || footprints.iter().for_each(|footprint| see(model.threshold(footprint))))
+}
+
+/// The robust threshold of one scale by hand, which has the bits of the library's.
+fn plainly(count: usize) -> Kernel {
+    let footprints: Vec<Footprint<f32>> = footprints(count).collect();
+    let robust = Robust::new(Variant::Isotropic);
+    for footprint in &footprints {
+        assert_eq!(Ok(plain::robust(footprint)), robust.threshold(footprint), "{footprint:?}");
+    }
+    Box::new(move || footprints.iter().for_each(|footprint| see(plain::robust(footprint))))
 }
 
 fn in_batch<R: Lane>(batch: Batch, count: usize) -> Kernel {

@@ -3,6 +3,8 @@
 //!
 //! Inputs are the footprints of the oblique scene, 65,536 of them, so that no branch predictor learns them by heart.
 
+mod plain;
+
 use criterion::{
     BatchSize, BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main, measurement::WallTime,
 };
@@ -13,6 +15,7 @@ use hashed_alpha::threshold::footprint::Footprint;
 use hashed_alpha::threshold::hash::{Cell, Hash, HashKind, sine};
 use hashed_alpha::threshold::hashed::HashedAlpha;
 use hashed_alpha::threshold::real::Real;
+use hashed_alpha::threshold::robust::{Join, Robust};
 use hashed_alpha::threshold::two_scale::Variant;
 use std::hint::black_box;
 
@@ -59,6 +62,20 @@ fn thresholds<R: Real>(group: &mut BenchmarkGroup<'_, WallTime>) {
             group.bench_function(format!("{variant}/{hash}/{}", R::NAME), |b| {
                 b.iter(|| sum(&footprints, |footprint| hashed.threshold(footprint)));
             });
+        }
+    }
+}
+
+/// A threshold at a time, beside the plain program of the same one.
+fn one_at_a_time(group: &mut BenchmarkGroup<'_, WallTime>) {
+    let footprints = footprints::<f32>();
+    group.throughput(Throughput::Elements(footprints.len() as u64));
+    group.bench_function("plain", |b| b.iter(|| sum(&footprints, plain::robust)));
+    for variant in [Variant::Isotropic, Variant::Anisotropic] {
+        for join in Join::ALL {
+            let robust = Robust { join, ..Robust::new(variant) };
+            let threshold = |footprint: &Footprint<f32>| robust.threshold(footprint).unwrap_or(0.5);
+            group.bench_function(format!("{variant}/{join}"), |b| b.iter(|| sum(&footprints, threshold)));
         }
     }
 }
@@ -110,6 +127,9 @@ fn all(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("two_scale");
     two_scales::<f32>(&mut group);
     two_scales::<f64>(&mut group);
+    group.finish();
+    let mut group = criterion.benchmark_group("one_at_a_time");
+    one_at_a_time(&mut group);
     group.finish();
     let mut group = criterion.benchmark_group("statistics");
     statistics(&mut group);

@@ -39,13 +39,14 @@ const PARTS: &str =
     "the worst of hundreds of parts of the domain that share samples, most of them judged by an inequality";
 
 /// Claims whose p-values are no [`Law::Larger`].
-const LAWS: [(&str, Law); 16] = [
+const LAWS: [(&str, Law); 17] = [
     ("uniform.marginal", Law::Uniform),
     ("uniform.constant_x", Law::Uniform),
     ("uniform.constant_y", Law::Uniform),
     ("uniform.constant_z", Law::Uniform),
     ("uniform.any_plane", Law::Uniform),
     ("exact.cells", Law::Bound("chance may keep one threshold in 2048, as for the sine hash in f32")),
+    ("hash.lags", Law::Bound("ties of up to 0.02 count for none, and no chance ties this many cells as much")),
     ("hash.values", Law::Bound("four times as many pairs may meet as on a lattice of 24 bits")),
     ("domain.uniform", Law::Bound(PARTS)),
     ("domain.neighbours", Law::Bound(PARTS)),

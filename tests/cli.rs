@@ -727,6 +727,19 @@ fn spread(position: vec3<f32>, dpdx: vec3<f32>, dpdy: vec3<f32>, frame: u32) -> 
     assert_eq!((code, rejected.contains(&"frames.sequence".to_owned())), (Some(1), true), "{rejected:?}");
 }
 
+/// The same results by every set of instructions that this machine has; a name that is none is told.
+#[test]
+fn instructions_are_chosen_by_the_environment_and_change_no_bit() {
+    use hashed_alpha::threshold::batch::Isa;
+    let on = |isa: &str| {
+        let options = ["check", "robust", "--only", "uniform", "--budget", "quick", "--json", "--no-report"];
+        command(&options).env("HASHED_ALPHA_ISA", isa).output().unwrap()
+    };
+    let outputs: Vec<Vec<u8>> = Isa::available().map(|isa| on(isa.name()).stdout).collect();
+    assert!(outputs[0].len() > 1000 && outputs.iter().all(|output| *output == outputs[0]));
+    assert_fails(&on("sse9"), "", "HASHED_ALPHA_ISA is \"sse9\"; this machine has ");
+}
+
 /// No driver is found where these point.
 const NO_DRIVERS: [(&str, &str); 3] = [
     ("VK_DRIVER_FILES", "/nonexistent"),

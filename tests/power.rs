@@ -630,15 +630,3 @@ fn sizes_found_half_of_the_time() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/power.md");
     std::fs::write(path, page).expect("the page can be written");
 }
-
-#[test]
-fn temporary_cluster() {
-    let (claim, ground, plant) = planted().into_iter().find(|p| p.0.id == "flips.cluster").unwrap();
-    for seed in 0..6 {
-        let draw = Draw { budget: Budget::Ci, ..Draw::seeded(seed) };
-        let sound = tried(claim, &ground.subject(seed), &draw);
-        let size = LARGER * sound.detectable.unwrap();
-        let found = tried(claim, &plant(seed, ground.subject(seed), size), &draw);
-        eprintln!("sound {:?} {:?} size {size:.4} found {:?} {:?} {}", sound.conclusion, sound.effect, found.conclusion, found.effect, found.seen);
-    }
-}

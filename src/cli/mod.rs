@@ -42,6 +42,7 @@ use args::Verb;
 use ending::Ending;
 use failure::Failure;
 use hashed_alpha::shader::own::READER;
+use hashed_alpha::threshold::batch::Isa;
 use std::io::Write;
 use std::process::ExitCode;
 
@@ -57,6 +58,7 @@ pub fn quiet_readers() {
 
 /// Does what was asked for.
 pub fn run(args: &Args) -> Result<Ending, Failure> {
+    Isa::asked_for().map_err(Failure::Usage)?;
     match &args.verb {
         Verb::Check(args) => check::run(args),
         Verb::Compare(args) => compare::run(args),

@@ -97,3 +97,54 @@ pub fn clusters(events: &[bool], size: [usize; 3], shape: [usize; 3]) -> Option<
     let p = ChiSquared::new(dof).map_or(1.0, |law| law.sf(ratio * dof));
     Some(Clusters { cells, ratio, sigma: relative_variance.sqrt(), p })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::stats::seed;
+
+    /// Independent events of a share, in blocks of 8 x 8; with `common`, the share is as much larger or smaller in each block.
+    fn found(seed: u64, share: f64, common: f64) -> Clusters {
+        let mut rng = seed::rng("clusters.tests", seed);
+        let blocks: Vec<f64> = (0..64)
+            .map(|_| share + if seed::uniform01(&mut rng) < 0.5 { common } else { -common })
+            .collect();
+        let is_event = |at: usize| {
+            let (x, y) = (at % 64, at / 64);
+            seed::uniform01(&mut rng) < blocks[x / 8 + 8 * (y / 8)]
+        };
+        let events: Vec<bool> = (0..64 * 64).map(is_event).collect();
+        clusters(&events, [64, 64, 1], [8, 8, 1]).unwrap()
+    }
+
+    #[test]
+    fn independent_events_are_calibrated() {
+        for share in [0.12, 0.2, 0.5] {
+            let below = |level: f64| (0..1000).filter(|&seed| found(seed, share, 0.0).p < level).count();
+            let (tenth, hundredth) = (below(0.1), below(0.01));
+            assert!((60..=145).contains(&tenth) && hundredth <= 24, "{share}: {tenth}, {hundredth} of 1000");
+        }
+    }
+
+    #[test]
+    fn a_common_share_is_the_correlation_that_is_told() {
+        // The variance of the share over that of an event.
+        let expected = 0.01 / 0.16;
+        let mean: f64 = (0..200).map(|seed| found(seed, 0.2, 0.1).correlation()).sum::<f64>() / 200.0;
+        assert!((mean / expected - 1.0).abs() < 0.1, "{mean}, {expected}");
+    }
+
+    #[test]
+    fn a_correlation_of_the_detectable_size_is_found() {
+        let size = found(0, 0.2, 0.0).detectable(1.0e-6, 0.999);
+        let common = (size * 0.16).sqrt();
+        let missed = (0..300).filter(|&seed| found(seed, 0.2, common).p > 1.0e-6).count();
+        assert!(missed <= 3, "{missed} of 300 at {size}");
+    }
+
+    #[test]
+    fn too_few_events_say_nothing() {
+        assert_eq!(clusters(&[false; 4096], [64, 64, 1], [8, 8, 1]), None);
+        assert_eq!(clusters(&[true; 64], [8, 8, 1], [4, 4, 1]), None);
+    }
+}

@@ -265,8 +265,24 @@ mod tests {
 
     #[test]
     fn what_cannot_be_judged_is_an_error() {
-        assert_eq!(worst_lag(&[0.5; 8], [2, 2, 2]), Err(StatsError::Constant));
-        assert_eq!(worst_lag(&uniform(0, 8), [2, 2, 2]), Err(StatsError::Empty));
-        assert!(worst_lag(&[0.5; 7], [2, 2, 2]).is_err());
+        assert_eq!(worst_lag(&[0.5; 8], [2, 2, 2], 0.0), Err(StatsError::Constant));
+        assert_eq!(worst_lag(&uniform(0, 8), [2, 2, 2], 0.0), Err(StatsError::Empty));
+        assert!(worst_lag(&[0.5; 7], [2, 2, 2], 0.0).is_err());
+    }
+
+    /// A tie of the tolerated strength comes out below a level no more often than that; a stronger one is seen.
+    #[test]
+    fn a_tolerated_tie_is_none() {
+        let size = [64, 32, 32];
+        let tied = |seed: u64, strength: f64| {
+            let (free, coins) = (uniform(seed, 1 << 16), uniform(seed + 1000, 1 << 16));
+            let copy = |at: usize| if coins[at] < strength { free[at - 1] } else { free[at] };
+            let values: Vec<f64> = core::iter::once(free[0]).chain((1..1 << 16).map(copy)).collect();
+            let found = worst_lag(&values, size, 0.02).unwrap();
+            found.p * found.tests as f64
+        };
+        let below = (0..40).filter(|&seed| tied(seed, 0.02) < 0.05).count();
+        assert!(below <= 8, "{below} of 40");
+        assert!(tied(1, 0.08) < 1e-9);
     }
 }

@@ -141,7 +141,7 @@ pub trait Real:
 
 /// Implements the part of [`Real`] that is the same text for both types.
 macro_rules! shared_items {
-    ($real:ty, $vec3:ty) => {
+    ($real:ty, $vec3:ty, $integer:ty) => {
         type Vec3 = $vec3;
         const NAME: &'static str = stringify!($real);
         const MAX_EXPONENT: i32 = <$real>::MAX_EXP - 1;
@@ -157,7 +157,18 @@ macro_rules! shared_items {
         }
         #[inline]
         fn floor(self) -> Self {
-            <$real>::floor(self)
+            // One instruction on most machines; without it, a call that takes longer than a conversion there and back.
+            if cfg!(not(all(target_arch = "x86_64", not(target_feature = "sse4.1")))) {
+                return <$real>::floor(self);
+            }
+            let is_small = self.abs() < 1.0 / <$real>::EPSILON;
+            if !is_small {
+                // Whole numbers, infinities and NaN.
+                return self;
+            }
+            let whole = self as $integer as $real;
+            // Minus zero keeps its sign.
+            (if whole > self { whole - 1.0 } else { whole }).copysign(self)
         }
         #[inline]
         fn ceil(self) -> Self {
@@ -183,7 +194,7 @@ macro_rules! shared_items {
 }
 
 impl Real for f32 {
-    shared_items!(f32, glam::Vec3);
+    shared_items!(f32, glam::Vec3, i32);
 
     #[inline]
     fn from_f64(value: f64) -> Self {
@@ -208,7 +219,7 @@ impl Real for f32 {
 }
 
 impl Real for f64 {
-    shared_items!(f64, glam::DVec3);
+    shared_items!(f64, glam::DVec3, i64);
 
     #[inline]
     fn from_f64(value: f64) -> Self {
@@ -393,6 +404,23 @@ mod tests {
         assert_eq!(Real::fract(-0.25_f32), 0.75);
         assert_eq!(Real::fract(2.5_f64), 0.5);
         assert_eq!(Real::fract(-1.0e-9_f32), 1.0);
+    }
+
+    #[test]
+    fn floors_are_those_of_the_standard_library() {
+        let edges = [0.0, 0.5, 1.0, 1.5, 4_194_303.5, 8_388_607.5, 8_388_608.0, 1.0e20, 1.0e-40, f32::INFINITY];
+        let near = edges.into_iter().flat_map(|x| [x, x.next_up(), x.next_down()]);
+        for x in near.flat_map(|x| [x, -x]).filter(|x| !x.is_nan()) {
+            assert_eq!(Real::floor(x).to_bits(), x.floor().to_bits(), "{x:e}");
+            for x in [f64::from(x), f64::from(x) * 536_870_912.0, f64::from(x).next_up(), f64::from(x).next_down()] {
+                assert_eq!(Real::floor(x).to_bits(), x.floor().to_bits(), "{x:e}");
+            }
+        }
+        assert!(Real::floor(f32::NAN).is_nan() && Real::floor(f64::NAN).is_nan());
+        for bits in (0..=u32::MAX).step_by(65_521) {
+            let x = f32::from_bits(bits);
+            assert!(x.is_nan() || Real::floor(x).to_bits() == x.floor().to_bits(), "{x:e}");
+        }
     }
 
     #[test]

@@ -5,6 +5,10 @@
 //! compiled for instructions beyond those of every machine may be called where the machine has them.
 
 use core::fmt;
+use std::sync::OnceLock;
+
+/// Names the set of instructions that is used in place of the fastest.
+const ISA_VARIABLE: &str = "HASHED_ALPHA_ISA";
 
 /// A set of vector instructions. No result depends on it, only the time that it takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -38,10 +42,34 @@ impl Isa {
         Self::ALL.into_iter().filter(|isa| isa.is_available())
     }
 
-    /// Returns the fastest set that this machine has.
+    /// Returns the fastest set that this machine has, or the one that is [asked for](Isa::asked_for) if it has that.
     #[must_use]
     pub fn best() -> Self {
-        Self::available().next_back().unwrap_or(Self::Portable)
+        static BEST: OnceLock<Isa> = OnceLock::new();
+        *BEST.get_or_init(|| {
+            let fastest = || Self::available().next_back().unwrap_or(Self::Portable);
+            Self::asked_for().ok().flatten().unwrap_or_else(fastest)
+        })
+    }
+
+    /// Returns the set that the environment variable `HASHED_ALPHA_ISA` names: `portable`, `avx2` or `avx512`. Nothing where it is
+    /// not set or empty. No result depends on it: that is what it is there to show.
+    ///
+    /// # Errors
+    ///
+    /// In words, if it names no set, or one that this machine does not have; [`Isa::best`] ignores it then.
+    pub fn asked_for() -> Result<Option<Self>, String> {
+        let Some(asked) = std::env::var_os(ISA_VARIABLE).filter(|asked| !asked.is_empty()) else {
+            return Ok(None);
+        };
+        let names = Self::available().map(Self::name).collect::<Vec<_>>().join(", ");
+        match Self::ALL.into_iter().find(|isa| asked == isa.name()) {
+            Some(isa) if isa.is_available() => Ok(Some(isa)),
+            Some(isa) => {
+                Err(format!("{ISA_VARIABLE} is {isa}, which this machine does not have; it has {names}"))
+            }
+            None => Err(format!("{ISA_VARIABLE} is {asked:?}; this machine has {names}")),
+        }
     }
 
     /// Returns whether this machine has the set.

@@ -161,19 +161,26 @@ fn validate<R: Real>(footprint: &Footprint<R>, hash_scale: f64) -> Result<(), In
     if !(hash_scale.is_finite() && hash_scale > 0.0) {
         return Err(InvalidInput::HashScale(hash_scale));
     }
-    let named: [(&[&'static str; 3], [R; 3]); 3] = [
-        (&["position.x", "position.y", "position.z"], footprint.position.into()),
-        (&["dpdx.x", "dpdx.y", "dpdx.z"], footprint.dpdx.into()),
-        (&["dpdy.x", "dpdy.y", "dpdy.z"], footprint.dpdy.into()),
-    ];
-    for (names, values) in named.into_iter().filter(|(_, values)| !all_finite(*values)) {
-        for (&what, value) in names.iter().zip(values) {
-            if !value.is_finite() {
-                return Err(InvalidInput::NotFinite { what, value: value.to_f64() });
-            }
-        }
+    let Footprint { position, dpdx, dpdy } = *footprint;
+    if all_finite::<R>(position.into()) && all_finite::<R>(dpdx.into()) && all_finite::<R>(dpdy.into()) {
+        return Ok(());
     }
-    Ok(())
+    not_finite(footprint)
+}
+
+/// Names the first coordinate or derivative that is not finite.
+#[cold]
+fn not_finite<R: Real>(footprint: &Footprint<R>) -> Result<(), InvalidInput> {
+    let named: [([&'static str; 3], [R; 3]); 3] = [
+        (["position.x", "position.y", "position.z"], footprint.position.into()),
+        (["dpdx.x", "dpdx.y", "dpdx.z"], footprint.dpdx.into()),
+        (["dpdy.x", "dpdy.y", "dpdy.z"], footprint.dpdy.into()),
+    ];
+    let mut all = named.into_iter().flat_map(|(names, values)| names.into_iter().zip(values));
+    match all.find(|(_, value)| !value.is_finite()) {
+        Some((what, value)) => Err(InvalidInput::NotFinite { what, value: value.to_f64() }),
+        None => Ok(()),
+    }
 }
 
 fn all_finite<R: Real>(v: [R; 3]) -> bool {

@@ -79,6 +79,7 @@ impl Repairs {
     pub const NONE: Self = Self(0);
 
     /// Returns whether a repair is in the set.
+    #[inline]
     #[must_use]
     pub const fn contains(self, repair: Repair) -> bool {
         self.0 & (1 << repair as u8) != 0

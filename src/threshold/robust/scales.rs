@@ -65,7 +65,9 @@ pub fn robust_scales<R: Real>(
     };
     let pixel_scale = side.map(|side| numerator / side);
     let split = if repairs.contains(Repair::OneLog2) { by_exponent } else { by_logarithm };
-    let [(x, next_x, fraction_x), (y, next_y, fraction_y), (z, next_z, fraction_z)] = pixel_scale.map(split);
+    // One scale is split once.
+    let [(x, next_x, fraction_x), (y, next_y, fraction_y), (z, next_z, fraction_z)] =
+        if anisotropic { pixel_scale.map(split) } else { [split(pixel_scale[0]); 3] };
     Scales {
         max_derivative,
         pixel_scale,
@@ -81,6 +83,9 @@ fn by_logarithm<R: Real>(scale: R) -> (i32, i32, R) {
     (log.floor().to_i32(), log.ceil().to_i32(), log.fract())
 }
 
+/// The bits of the mantissa of an `f64`, without the one in front.
+const F64_MANTISSA: u64 = (1 << (f64::MANTISSA_DIGITS - 1)) - 1;
+
 /// Cuts a scale to its octave, the next one and the fraction between them, in [0, 1): the octave out of the exponent,
 /// the fraction out of the mantissa, so that the two cannot disagree.
 ///
@@ -93,8 +98,15 @@ pub fn by_exponent<R: Real>(scale: R) -> (i32, i32, R) {
     if !(wide > 0.0 && wide.is_finite()) {
         return by_logarithm(scale);
     }
-    let (half_mantissa, exponent) = libm::frexp(wide);
-    (exponent - 1, exponent, below_one(R::from_f64(2.0 * half_mantissa).log2()))
+    let (mantissa, octave) = if wide < f64::MIN_POSITIVE {
+        let (half_mantissa, exponent) = libm::frexp(wide);
+        (2.0 * half_mantissa, exponent - 1)
+    } else {
+        let bits = wide.to_bits();
+        let exponent = (bits >> F64_MANTISSA.count_ones()) as i32;
+        (f64::from_bits(bits & F64_MANTISSA | 1.0_f64.to_bits()), exponent + 1 - f64::MAX_EXP)
+    };
+    (octave, octave + 1, below_one(R::from_f64(mantissa).log2()))
 }
 
 /// Returns a fraction in [0, 1], of which rounding may have made 1, in [0, 1).
