@@ -10,7 +10,9 @@
 use crate::budget::budget;
 use hashed_alpha::check::specimen::ideal;
 use hashed_alpha::check::subject::Precision;
-use hashed_alpha::check::{Budget, Claim, Conclusion, Draw, Frames, Standing, Subject, Verdict, claims, run_claims};
+use hashed_alpha::check::{
+    Budget, Claim, Conclusion, Draw, Frames, Standing, Subject, Verdict, claims, run_claims,
+};
 use hashed_alpha::check::{run::SUSPICION, tolerance::FAMILY_LEVEL};
 use hashed_alpha::stats::sequential::{self, Decision};
 use hashed_alpha::stats::{binomial, ecdf};
@@ -46,7 +48,10 @@ const LAWS: [(&str, Law); 17] = [
     ("uniform.constant_z", Law::Uniform),
     ("uniform.any_plane", Law::Uniform),
     ("exact.cells", Law::Bound("chance may keep one threshold in 2048, as for the sine hash in f32")),
-    ("hash.lags", Law::Bound("ties of up to 0.02 count for none, and no chance ties this many cells as much")),
+    (
+        "hash.lags",
+        Law::Bound("ties of up to 0.02 count for none, and no chance ties this many cells as much"),
+    ),
     ("hash.values", Law::Bound("four times as many pairs may meet as on a lattice of 24 bits")),
     ("domain.uniform", Law::Bound(PARTS)),
     ("domain.neighbours", Law::Bound(PARTS)),
@@ -140,6 +145,10 @@ fn about_others(subject: &Subject<'_>) -> Vec<&'static str> {
     if subject.join == Join::Dithered {
         // A turn lets a scale pass the same place more than once.
         claims.push("continuity.rotation");
+        if subject.variant == Variant::Anisotropic {
+            // It draws one octave for a slab of cells.
+            claims.push("flips.cluster");
+        }
     }
     claims
 }

@@ -445,11 +445,7 @@ fn plant(claim: &str) -> Option<(Ground, Plant)> {
             Sequence,
             Box::new(|_, base, size| {
                 each(base, move |at, x| {
-                    if coin_of_point(u64::from(at.frame), at) < size {
-                        (x + 0.03).rem_euclid(1.0)
-                    } else {
-                        x
-                    }
+                    if coin_of_point(u64::from(at.frame), at) < size { (x + 0.03).rem_euclid(1.0) } else { x }
                 })
             }),
         ),

@@ -140,9 +140,7 @@ impl FromStr for Frames {
         match typed.parse().map(NonZeroU32::new) {
             Ok(Some(NonZeroU32::MIN)) => Ok(Self::Static),
             Ok(Some(n)) if n.get() <= MOST_STRATA => Ok(Self::Strata(n)),
-            Ok(_) | Err(_) => {
-                Err(format!("a number of frames, 1 to {MOST_STRATA}, or the word sequence"))
-            }
+            Ok(_) | Err(_) => Err(format!("a number of frames, 1 to {MOST_STRATA}, or the word sequence")),
         }
     }
 }
@@ -502,7 +500,13 @@ impl<'a> Subject<'a> {
                 Ok(spread_all(rescaled(times, &all_first(fragments))?, fragments))
             })
         });
-        Self { name: format!("{}, {n} frames", self.name), frames: Frames::Strata(n), threshold, rescaled, ..self }
+        Self {
+            name: format!("{}, {n} frames", self.name),
+            frames: Frames::Strata(n),
+            threshold,
+            rescaled,
+            ..self
+        }
     }
 
     /// The paper's Listings 1 and 2 to the letter, in both precisions.

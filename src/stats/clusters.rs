@@ -87,7 +87,8 @@ pub fn clusters(events: &[bool], size: [usize; 3], shape: [usize; 3]) -> Option<
         return None;
     }
     let mean = cells as f64 * share;
-    let squares: f64 = counts.iter().map(|&count| (f64::from(count) - mean) * (f64::from(count) - mean)).sum();
+    let squares: f64 =
+        counts.iter().map(|&count| (f64::from(count) - mean) * (f64::from(count) - mean)).sum();
     // Drawn without replacement: the variance of a block's number is smaller by what the others leave.
     let expected = (blocks - 1) as f64 * all / (all - 1.0);
     let ratio = squares / variance / expected;
@@ -106,9 +107,8 @@ mod tests {
     /// Independent events of a share, in blocks of 8 x 8; with `common`, the share is as much larger or smaller in each block.
     fn found(seed: u64, share: f64, common: f64) -> Clusters {
         let mut rng = seed::rng("clusters.tests", seed);
-        let blocks: Vec<f64> = (0..64)
-            .map(|_| share + if seed::uniform01(&mut rng) < 0.5 { common } else { -common })
-            .collect();
+        let blocks: Vec<f64> =
+            (0..64).map(|_| share + if seed::uniform01(&mut rng) < 0.5 { common } else { -common }).collect();
         let is_event = |at: usize| {
             let (x, y) = (at % 64, at / 64);
             seed::uniform01(&mut rng) < blocks[x / 8 + 8 * (y / 8)]

@@ -408,11 +408,14 @@ mod tests {
 
     #[test]
     fn floors_are_those_of_the_standard_library() {
-        let edges = [0.0, 0.5, 1.0, 1.5, 4_194_303.5, 8_388_607.5, 8_388_608.0, 1.0e20, 1.0e-40, f32::INFINITY];
+        let edges =
+            [0.0, 0.5, 1.0, 1.5, 4_194_303.5, 8_388_607.5, 8_388_608.0, 1.0e20, 1.0e-40, f32::INFINITY];
         let near = edges.into_iter().flat_map(|x| [x, x.next_up(), x.next_down()]);
         for x in near.flat_map(|x| [x, -x]).filter(|x| !x.is_nan()) {
             assert_eq!(Real::floor(x).to_bits(), x.floor().to_bits(), "{x:e}");
-            for x in [f64::from(x), f64::from(x) * 536_870_912.0, f64::from(x).next_up(), f64::from(x).next_down()] {
+            for x in
+                [f64::from(x), f64::from(x) * 536_870_912.0, f64::from(x).next_up(), f64::from(x).next_down()]
+            {
                 assert_eq!(Real::floor(x).to_bits(), x.floor().to_bits(), "{x:e}");
             }
         }

@@ -35,6 +35,9 @@ const LINES: [[i64; 3]; 16] = [
 /// Sides of the rectangles whose corners are combined: neighbours, and two that are no multiple of another.
 const SIDES: [[i64; 2]; 3] = [[1, 1], [1, 2], [5, 3]];
 
+/// Leading binary digits of thresholds whose parities are looked at together, as their number of combinations: as many as bins.
+const PARITIES: f64 = 64.0;
+
 /// Three cells of lines and right angles.
 pub const TRIPLES: Claim = Claim {
     id: "hash.triples",
@@ -51,7 +54,7 @@ pub const SQUARES: Claim = Claim {
     id: "hash.squares",
     anchor: "§5 (hash outputs replace uniform random numbers); not in the paper",
     statement: "three corners of a rectangle of cells do not tell the fourth, nor seven of a cube the eighth: their sum with \
-                alternating signs is uniform modulo 1",
+                alternating signs is uniform modulo 1, and so are the parities of their leading digits",
     expected: Verdict::Consistent,
     promise: Some(Promise::Linear(0.025)),
     run: squares,
@@ -101,12 +104,13 @@ fn shapes() -> Vec<[[i64; 3]; 2]> {
     lines.into_iter().chain(corners).collect()
 }
 
-/// A block of cells seen where its octave has all weight, and between two octaves, with the thresholds.
-fn blocks(subject: &Subject<'_>, draw: &Draw, claim: &str) -> Attempt<[(Block, Vec<f64>); 2]> {
+/// A block of cells seen where its octave has all weight, the same between two octaves, and one of the next octave, with the thresholds.
+fn blocks(subject: &Subject<'_>, draw: &Draw, claim: &str) -> Attempt<[(Block, Vec<f64>); 3]> {
     let mut rng = draw.rng(claim);
     let block = Block::draw(cube(draw.samples(COMBINED_CELLS).ilog2(), &mut rng), &mut rng);
-    let finer = block.seen_at(BETWEEN);
-    Ok([(block, block.thresholds(subject)?), (finer, finer.thresholds(subject)?)])
+    let (between, next) = (block.seen_at(BETWEEN), Block { octave: block.octave + 1, ..block });
+    let seen = |block: Block| block.thresholds(subject).map(|values| (block, values));
+    Ok([seen(block)?, seen(between)?, seen(next)?])
 }
 
 fn triples(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
@@ -154,31 +158,46 @@ fn squares(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     let (mut evidence, mut n) = (Vec::new(), 0);
     let fraction = |sum: f64| sum - sum.floor();
     let blocks = blocks(subject, draw, SQUARES.id)?;
-    let octave = blocks[0].0.octave;
     for (block, values) in blocks {
         n += values.len() as u64;
-        let at = if block.fraction == 0.0 { "" } else { " between two octaves" };
+        let at = match block.fraction {
+            0.0 => format!("octave {}", block.octave),
+            _ => format!("between octaves {} and {}", block.octave, block.octave + 1),
+        };
+        // Whether an even number of corners has a digit, for each of the leading ones at once.
+        let parity = |corners: &[f64]| {
+            let digits = |value: &f64| ((value * PARITIES) as u32).min(PARITIES as u32 - 1);
+            (f64::from(corners.iter().map(digits).fold(0, |all, digits| all ^ digits)) + 0.5) / PARITIES
+        };
         for (name, first, second) in [("xy", 0, 1), ("xz", 0, 2), ("yz", 1, 2)] {
             for [width, height] in SIDES {
                 let (a, b) = (along(first, width), along(second, height));
                 let corners = together(&block, &values, [[0; 3], a, b, plus(a, b)]);
-                let counts = histogram(corners.map(|[h, ha, hb, hab]| fraction(h - ha - hb + hab)));
-                evidence.push(NamedHistogram::new(format!("{width} x {height} cells in {name}{at}"), &counts));
+                let (sums, parities): (Vec<f64>, Vec<f64>) = corners
+                    .map(|corners @ [h, ha, hb, hab]| (fraction(h - ha - hb + hab), parity(&corners)))
+                    .unzip();
+                let of = format!("{width} x {height} cells in {name}, {at}");
+                evidence.push(NamedHistogram::new(format!("sums of {of}"), &histogram(sums)));
+                evidence.push(NamedHistogram::new(format!("parities of {of}"), &histogram(parities)));
             }
         }
         let [x, y, z] = [along(0, 1), along(1, 1), along(2, 1)];
         let corners = [[0; 3], x, y, z, plus(x, y), plus(x, z), plus(y, z), plus(x, plus(y, z))];
-        let sums = together(&block, &values, corners)
-            .map(|[h, x, y, z, xy, xz, yz, xyz]| fraction(h - x - y - z + xy + xz + yz - xyz));
-        evidence.push(NamedHistogram::new(format!("corners of a cube{at}"), &histogram(sums)));
+        let (sums, parities): (Vec<f64>, Vec<f64>) = together(&block, &values, corners)
+            .map(|corners @ [h, x, y, z, xy, xz, yz, xyz]| {
+                (fraction(h - x - y - z + xy + xz + yz - xyz), parity(&corners))
+            })
+            .unzip();
+        evidence.push(NamedHistogram::new(format!("sums of cubes, {at}"), &histogram(sums)));
+        evidence.push(NamedHistogram::new(format!("parities of cubes, {at}"), &histogram(parities)));
     }
     let tests: Vec<_> =
         evidence.iter().filter_map(|corners| chi_square::uniform(&corners.counts).ok()).collect();
     let worst = tests.iter().enumerate().min_by(|a, b| a.1.p.total_cmp(&b.1.p));
     let seen = worst.map_or_else(String::new, |(index, test)| {
         format!(
-            "octave {octave}, {}: the sum of the corners with alternating signs is not uniform modulo 1, chi-square {:.0} \
-             over {} dof",
+            "{}: the corners with alternating signs, or the parities of their digits, are not uniform modulo 1, chi-square \
+             {:.0} over {} dof",
             evidence[index].name, test.statistic, test.dof
         )
     });

@@ -7,7 +7,7 @@
 //! what takes one to the other takes no other cell to a copy.
 
 use crate::check::input::{draw_octave, seen_in_cell};
-use crate::check::tolerance::{SPREAD, VIEW, VIEW_DEPTH};
+use crate::check::tolerance::{SPREAD, TOLERATED_TIE, VIEW, VIEW_DEPTH};
 use crate::check::trial::reject_outsiders;
 use crate::check::{Attempt, Claim, Conclusion, Draw, Evidence, Promise, Subject, Trial, Verdict};
 use crate::scene::Fragment;
@@ -41,10 +41,15 @@ const ORBITS: usize = 128;
 /// Two thresholds are equal if they differ by no more: a device has no lerp factor of exactly 0.
 const EQUAL: f64 = 1.0 / 1_048_576.0;
 
+/// How far from the origin the cube of cells lies along each axis: it holds both sides of the mirrors that objects have, which go
+/// through their middle or near it.
+const DEEP_REACH: f64 = 32.0;
+
 /// Relations that are tried on fresh cells.
 const CANDIDATES: usize = 16;
 
-/// Fresh pairs on which each is tried: a relation that holds for one cell in 400 shows.
+/// Fresh pairs on which each is tried: a relation that holds for one cell in 25 shows, and one in 50 is no repeat
+/// ([`TOLERATED_TIE`]).
 const CONFIRMING_PAIRS: usize = 1 << 12;
 
 /// Least probability of equal thresholds that is expected of independent cells: that of continuous ones, which are equal if they
@@ -231,16 +236,18 @@ fn evaluated(subject: &Subject<'_>, cells: &[([i64; 3], i32)]) -> Attempt<Vec<Se
     Ok(cells.iter().zip(values).map(|(&(cell, octave), value)| Seen { cell, octave, value }).collect())
 }
 
-/// Draws different cells of a box of one octave around a place near the origin; one axis, if any, has a single layer.
+/// Draws different cells of a box of one octave around a place up to `reach` from the origin along each axis; one axis, if any, has
+/// a single layer.
 fn set_in(
     subject: &Subject<'_>,
     sides: [i64; 3],
+    reach: f64,
     cells: usize,
     rng: &mut Xoshiro256PlusPlus,
 ) -> Attempt<Vec<Seen>> {
     let octave = draw_octave(rng);
     let corner = sides.map(|side| {
-        let place = (2.0 * seed::uniform01(rng) - 1.0) * SPREAD;
+        let place = (2.0 * seed::uniform01(rng) - 1.0) * reach;
         place.floor() as i64 - side / 2
     });
     let mut drawn = FxHashSet::default();
@@ -269,9 +276,9 @@ fn sets(
     for axis in 0..3 {
         let mut sides = [2 * i64::from(VIEW); 3];
         sides[axis] = 1;
-        sets.push((Some(axis), set_in(subject, sides, cells, rng)?));
+        sets.push((Some(axis), set_in(subject, sides, SPREAD, cells, rng)?));
     }
-    sets.push((None, set_in(subject, [2 * i64::from(VIEW_DEPTH); 3], 2 * cells, rng)?));
+    sets.push((None, set_in(subject, [2 * i64::from(VIEW_DEPTH); 3], DEEP_REACH, 2 * cells, rng)?));
     Ok(sets)
 }
 
@@ -375,6 +382,7 @@ fn octave_copies(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     let set = evaluated(subject, &ladder)?;
     n += set.len();
     found.explore(&set, |coarse, fine| if coarse == fine { &[] } else { &[Map::IDENTITY] });
+    found.0.retain(|relation| is_in_view(relation.shift));
     // The nearest octaves whose cells are eight times as small have the fewest pairs.
     let pairs = (NEST_SIDE as f64 / 8.0).powi(3);
     confirmed(subject, found, n, SURE_PAIRS / pairs, &mut rng)
@@ -427,7 +435,7 @@ fn confirmed(
             (pair[0].value - second).abs() <= EQUAL
         };
         let equal = seen.chunks_exact(2).filter(is_equal).count() as u64;
-        let p = binomial::poisson_upper_p(equal, pairs as f64 * meeting(&seen));
+        let p = binomial::poisson_upper_p(equal, pairs as f64 * (meeting(&seen) + TOLERATED_TIE));
         if worst.is_none_or(|(least, ..)| p < least) {
             worst = Some((p, equal, relation));
         }

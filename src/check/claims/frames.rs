@@ -270,7 +270,9 @@ fn sequence(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
         let (gap, from) = widest_gap(consecutive, n);
         largest = largest.max(gap);
         if gap > WIDEST_GAP {
-            uneven.get_or_insert(format!("; {n} frames from frame {from} on leave a gap of {gap:.2} mean distances"));
+            uneven.get_or_insert(format!(
+                "; {n} frames from frame {from} on leave a gap of {gap:.2} mean distances"
+            ));
         }
     }
     let n = points.len() as u64 * frames.len() as u64;
@@ -282,7 +284,8 @@ fn sequence(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     );
     // Steps that do not fill the interval are those of every point.
     let bad = if uneven.is_some() { n } else { bad };
-    let counted = Trial::counted(bad, n, "largest gap, in mean distances", "share of steps that are wrong", seen);
+    let counted =
+        Trial::counted(bad, n, "largest gap, in mean distances", "share of steps that are wrong", seen);
     Ok(Trial { statistic: Some(largest), ..counted })
 }
 
@@ -373,7 +376,11 @@ fn serial(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
                 // The same pixel, where another point of the surface has come.
                 let there = here.moved(motion, subject.precision).fragment;
                 before.push(here.fragment);
-                after.push(Fragment { pixel: here.fragment.pixel, frame: subject.frames.period_start(lag), ..there });
+                after.push(Fragment {
+                    pixel: here.fragment.pixel,
+                    frame: subject.frames.period_start(lag),
+                    ..there
+                });
             }
             let (old, new) = (subject.thresholds(&before), subject.thresholds(&after));
             reject_outsiders(subject, &before, &old)?;

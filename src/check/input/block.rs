@@ -69,7 +69,8 @@ impl Block {
                 .map(|at| [at % nx, at / nx % ny, at / (nx * ny)].map(|index| index as f64))
                 .map(|index| {
                     let index = DVec3::from_array(index);
-                    let seen = self.start.seeing(between(subject, self.corner + index, self.octave, self.fraction));
+                    let seen =
+                        self.start.seeing(between(subject, self.corner + index, self.octave, self.fraction));
                     Fragment { pixel: seen.pixel + index.truncate(), ..seen }
                 })
                 .collect();

@@ -2,8 +2,8 @@
 
 use super::defect::Specimen;
 use super::port::{Port, SOUND, ideal_hash};
-use crate::check::{Frames, Subject};
 use crate::check::subject::Precision;
+use crate::check::{Frames, Subject};
 use crate::scene::Fragment;
 use crate::threshold::footprint::Footprint;
 use crate::threshold::stage::stratify::{alternating, alternating_literal, stratified};

@@ -215,13 +215,13 @@ pub(super) const FAMILY: &[Specimen] = &[
     },
     Specimen {
         name: "turned-about-the-diagonal",
-        defect: "three hashes, of x and y, y and z, z and x, are mixed: turning the axes in a ring leaves the noise as it is",
-        mend: "let the hash read each coordinate by itself",
+        defect: "three hashes, of x and y, y and z, z and x, are added modulo 1: turning the axes in a ring leaves the noise as it is",
+        mend: "let one hash read each coordinate by itself",
         claim: "cells.symmetry",
         subject: || {
             hashed_by(|[x, y, z], octave| {
-                let two = |a, b| (of_two(a, b, octave) * f64::from(1_u32 << 24)).floor();
-                ideal_hash([two(x, y) + two(y, z) + two(z, x), 0.0, 0.0], octave)
+                let sum = of_two(x, y, octave) + of_two(y, z, octave) + of_two(z, x, octave);
+                sum - sum.floor()
             })
             .subject()
         },
@@ -235,6 +235,28 @@ pub(super) const FAMILY: &[Specimen] = &[
             hashed_by(|[x, y, z], octave| {
                 let turned = 0.618_033_988_749_895 * x + ideal_hash([0.0; 3], octave);
                 if y == 0.0 && z == 0.0 { turned - turned.floor() } else { ideal_hash([x, y, z], octave) }
+            })
+            .subject()
+        },
+    },
+    Specimen {
+        name: "even-number-in-a-cube",
+        defect: "in odd octaves the last of eight cells is turned around where needed, so that an even number of each eight is kept",
+        mend: "hash every cell by itself",
+        claim: "hash.squares",
+        subject: || {
+            hashed_by(|index, octave| {
+                let value = ideal_hash(index, octave);
+                let base = index.map(|c| 2.0 * (c / 2.0).floor());
+                if octave & 1 == 0 || index.iter().zip(base).any(|(c, base)| *c == base) {
+                    return value;
+                }
+                let others = (0..7_u8).filter(|corner| {
+                    let at = [0, 1, 2].map(|axis| base[axis] + f64::from(corner >> axis & 1));
+                    ideal_hash(at, octave) < 0.5
+                });
+                let is_even = others.count() % 2 == 0;
+                if is_even == (value < 0.5) { 1.0 - value } else { value }
             })
             .subject()
         },

@@ -4,7 +4,7 @@
 //! |---|---|---|---|
 //! | [`Join::Interpolate`] | 2, 2 | by Eq. 2 | continuous; with one scale an axis it jumps at every octave of an axis |
 //! | [`Join::Copula`] | 2, 8 | for any weights | continuous |
-//! | [`Join::Dithered`] | 2 of 3, 1 and 3 of one dimension | by construction | each cell switches once an octave |
+//! | [`Join::Dithered`] | 2 of 3, 1 and 3 of one dimension | by construction | each cell switches once an octave; with one scale an axis, each slab of cells |
 
 use super::repairs::{Repair, Repairs};
 use super::scales::{Scales, corner_weight, nested_cell};

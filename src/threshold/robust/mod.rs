@@ -184,7 +184,8 @@ fn not_finite<R: Real>(footprint: &Footprint<R>) -> Result<(), InvalidInput> {
 }
 
 fn all_finite<R: Real>(v: [R; 3]) -> bool {
-    v.iter().all(|component| component.is_finite())
+    let [x, y, z] = v;
+    x.is_finite() && y.is_finite() && z.is_finite()
 }
 
 #[cfg(test)]

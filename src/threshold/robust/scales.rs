@@ -36,6 +36,7 @@ pub(in crate::threshold) fn side_bounds<R: Real>() -> [R; 2] {
 }
 
 /// Finds the octaves of a footprint. `variant` is isotropic, or anisotropic; other variants count as isotropic.
+#[inline]
 #[must_use]
 pub fn robust_scales<R: Real>(
     variant: Variant,
@@ -48,7 +49,8 @@ pub fn robust_scales<R: Real>(
     let (dx, dy): ([R; 3], [R; 3]) = (footprint.dpdx.into(), footprint.dpdy.into());
     let anisotropic = variant == Variant::Anisotropic;
     let max_derivative = if anisotropic {
-        [0, 1, 2].map(|axis| Real::max(dx[axis].abs(), dy[axis].abs()))
+        let along = |axis: usize| Real::max(dx[axis].abs(), dy[axis].abs());
+        [along(0), along(1), along(2)]
     } else {
         [Real::max(measure(dx), measure(dy)); 3]
     };
@@ -58,16 +60,22 @@ pub fn robust_scales<R: Real>(
         let [smallest, greatest] = side_bounds::<R>();
         // Zero times infinity cannot happen: neither factor is infinite.
         let hash_scale = Real::clamp(hash_scale, smallest, greatest);
-        let side = max_derivative.map(|derivative| hash_scale * Real::min(derivative, greatest));
-        floored(side, footprint.position.into(), [smallest, greatest])
+        let [x, y, z] = max_derivative;
+        let side = |derivative| hash_scale * Real::min(derivative, greatest);
+        floored([side(x), side(y), side(z)], footprint.position.into(), [smallest, greatest])
     } else {
         max_derivative.map(|derivative| hash_scale * derivative)
     };
-    let pixel_scale = side.map(|side| numerator / side);
+    let [x, y, z] = side;
+    let pixel_scale = [numerator / x, numerator / y, numerator / z];
     let split = if repairs.contains(Repair::OneLog2) { by_exponent } else { by_logarithm };
     // One scale is split once.
-    let [(x, next_x, fraction_x), (y, next_y, fraction_y), (z, next_z, fraction_z)] =
-        if anisotropic { pixel_scale.map(split) } else { [split(pixel_scale[0]); 3] };
+    let [(x, next_x, fraction_x), (y, next_y, fraction_y), (z, next_z, fraction_z)] = if anisotropic {
+        let [x, y, z] = pixel_scale;
+        [split(x), split(y), split(z)]
+    } else {
+        [split(pixel_scale[0]); 3]
+    };
     Scales {
         max_derivative,
         pixel_scale,
@@ -92,6 +100,7 @@ const F64_MANTISSA: u64 = (1 << (f64::MANTISSA_DIGITS - 1)) - 1;
 /// The logarithm of a mantissa has all its digits after the point; that of a scale spends up to seven of them on the
 /// octave, and the weight of the join would have an error of half its last digit. What is not a positive number has
 /// no exponent and goes by the logarithm. Not in the paper.
+#[inline]
 #[must_use]
 pub fn by_exponent<R: Real>(scale: R) -> (i32, i32, R) {
     let wide = scale.to_f64();
@@ -119,18 +128,47 @@ pub(in crate::threshold) fn below_one<R: Real>(fraction: R) -> R {
 ///
 /// With [`Repair::NestedPhase`] the cells of octave k begin 1/3 of a cell below whole numbers where k is even and 2/3
 /// where it is odd; every boundary of one octave is then a boundary of the next one, up to one rounding of 1/3.
+#[inline]
 #[must_use]
 pub fn nested_cell<R: Real>(position: R::Vec3, octave: [i32; 3], repairs: Repairs) -> Cell<R> {
-    let position: [R; 3] = position.into();
-    let index = [0, 1, 2].map(|axis| {
-        let scaled = R::from_f64(power_of_two(octave[axis])) * position[axis];
-        let whole = scaled.floor();
-        let third = if octave[axis] & 1 == 0 { 2.0 / 3.0 } else { 1.0 / 3.0 };
-        let beyond = repairs.contains(Repair::NestedPhase) && scaled - whole >= R::from_f64(third);
-        if beyond { whole + R::from_f64(1.0) } else { whole }
-    });
+    let [x, y, z]: [R; 3] = position.into();
+    let of = |octave| Grid::of(octave, repairs.contains(Repair::NestedPhase));
+    let along_x = of(octave[0]);
+    let [along_y, along_z] = if octave[0] == octave[1] && octave[0] == octave[2] {
+        [along_x; 2]
+    } else {
+        [of(octave[1]), of(octave[2])]
+    };
+    let index = [along_x.index(x), along_y.index(y), along_z.index(z)];
     let word = if repairs.contains(Repair::OctaveWord) { octave_word(octave) } else { 0 };
     Cell { index: index.into(), octave: word }
+}
+
+/// The cells of one octave along an axis.
+#[derive(Clone, Copy)]
+struct Grid<R: Real> {
+    cells_per_unit: R,
+    /// Where a cell begins, after a whole number; beyond 1 where that is at whole numbers.
+    begin: R,
+}
+
+impl<R: Real> Grid<R> {
+    #[inline(always)]
+    fn of(octave: i32, is_nested: bool) -> Self {
+        let begin = match (is_nested, octave & 1) {
+            (false, _) => 2.0,
+            (true, 0) => 2.0 / 3.0,
+            (true, _) => 1.0 / 3.0,
+        };
+        Self { cells_per_unit: R::from_f64(power_of_two(octave)), begin: R::from_f64(begin) }
+    }
+
+    #[inline(always)]
+    fn index(self, coordinate: R) -> R {
+        let scaled = self.cells_per_unit * coordinate;
+        let whole = scaled.floor();
+        if scaled - whole >= self.begin { whole + R::from_f64(1.0) } else { whole }
+    }
 }
 
 /// Returns the one cell whose hash is looked at where a hash is on trial alone: that of the coarse octave of an isotropic
@@ -161,7 +199,8 @@ pub(in crate::threshold) fn floored<R: Real>(
     let coordinate = largest_component(position) * R::from_f64(LEAST_SHARE_OF_COORDINATE);
     let longest = Real::clamp(Real::max(largest_component(side), coordinate), smallest, greatest);
     let floor = Real::max(longest * R::from_f64(LEAST_SHARE_OF_LONGEST), Real::min(coordinate, greatest));
-    side.map(|side| Real::clamp(side, floor, longest))
+    let [x, y, z] = side;
+    [Real::clamp(x, floor, longest), Real::clamp(y, floor, longest), Real::clamp(z, floor, longest)]
 }
 
 #[inline(always)]
