@@ -69,6 +69,16 @@ pub trait Real:
     #[must_use]
     fn floor(self) -> Self;
 
+    /// Returns the same as [`Real::floor`], bit for bit, by a conversion to a whole number and back.
+    ///
+    /// Where a machine is not known to round by an instruction, `floor` is a call that takes longer; in vector code that is compiled
+    /// for such machines it is one instruction.
+    #[inline]
+    #[must_use]
+    fn floor_by_conversion(self) -> Self {
+        self.floor()
+    }
+
     /// Returns the smallest integral value that is not below `self`.
     #[must_use]
     fn ceil(self) -> Self;
@@ -157,10 +167,10 @@ macro_rules! shared_items {
         }
         #[inline]
         fn floor(self) -> Self {
-            // One instruction on most machines; without it, a call that takes longer than a conversion there and back.
-            if cfg!(not(all(target_arch = "x86_64", not(target_feature = "sse4.1")))) {
-                return <$real>::floor(self);
-            }
+            <$real>::floor(self)
+        }
+        #[inline]
+        fn floor_by_conversion(self) -> Self {
             let is_small = self.abs() < 1.0 / <$real>::EPSILON;
             if !is_small {
                 // Whole numbers, infinities and NaN.
@@ -412,17 +422,17 @@ mod tests {
             [0.0, 0.5, 1.0, 1.5, 4_194_303.5, 8_388_607.5, 8_388_608.0, 1.0e20, 1.0e-40, f32::INFINITY];
         let near = edges.into_iter().flat_map(|x| [x, x.next_up(), x.next_down()]);
         for x in near.flat_map(|x| [x, -x]).filter(|x| !x.is_nan()) {
-            assert_eq!(Real::floor(x).to_bits(), x.floor().to_bits(), "{x:e}");
+            assert_eq!(x.floor_by_conversion().to_bits(), x.floor().to_bits(), "{x:e}");
             for x in
                 [f64::from(x), f64::from(x) * 536_870_912.0, f64::from(x).next_up(), f64::from(x).next_down()]
             {
-                assert_eq!(Real::floor(x).to_bits(), x.floor().to_bits(), "{x:e}");
+                assert_eq!(x.floor_by_conversion().to_bits(), x.floor().to_bits(), "{x:e}");
             }
         }
-        assert!(Real::floor(f32::NAN).is_nan() && Real::floor(f64::NAN).is_nan());
+        assert!(f32::NAN.floor_by_conversion().is_nan() && f64::NAN.floor_by_conversion().is_nan());
         for bits in (0..=u32::MAX).step_by(65_521) {
             let x = f32::from_bits(bits);
-            assert!(x.is_nan() || Real::floor(x).to_bits() == x.floor().to_bits(), "{x:e}");
+            assert!(x.is_nan() || x.floor_by_conversion().to_bits() == x.floor().to_bits(), "{x:e}");
         }
     }
 

@@ -166,7 +166,7 @@ impl<R: Real> Grid<R> {
     #[inline(always)]
     fn index(self, coordinate: R) -> R {
         let scaled = self.cells_per_unit * coordinate;
-        let whole = scaled.floor();
+        let whole = scaled.floor_by_conversion();
         if scaled - whole >= self.begin { whole + R::from_f64(1.0) } else { whole }
     }
 }
