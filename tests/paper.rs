@@ -234,11 +234,32 @@ fn sound_port(variant: Variant, model: DeviceModel) -> Trial {
     })
 }
 
+/// Findings that hold for some rows of cells only: a run may have none of them.
+const OF_SOME_ROWS: [&str; 1] = ["hash.lags"];
+
+/// Seeds of which one has such a row.
+const SEEDS_OF_A_ROW: core::ops::RangeInclusive<u64> = 1..=16;
+
+fn is_rejected_with_another_seed(outcome: &Outcome) -> bool {
+    let claim =
+        claims::ALL.iter().find(|claim| claim.id == outcome.check && OF_SOME_ROWS.contains(&claim.id));
+    let is_meant =
+        |subject: &Subject<'_>| subject.name == outcome.subject && subject.precision == outcome.precision;
+    let subject = Subject::paper().into_iter().find(is_meant);
+    let (Some(claim), Some(subject)) = (claim, subject) else { return false };
+    SEEDS_OF_A_ROW.into_iter().any(|seed| {
+        let draw = Draw { budget: Budget::Quick, reach: Reach::Listings, ..Draw::seeded(seed) };
+        let outcomes = run_claims(&[*claim], core::slice::from_ref(&subject), &draw, || {});
+        outcomes.iter().any(|outcome| outcome.verdict == Verdict::Rejected)
+    })
+}
+
 fn trial(outcome: &Outcome) -> Trial {
     let name = format!("{} {} {}", outcome.check, outcome.subject, outcome.precision);
     let known = OF_THE_LISTINGS.iter().find(|known| known.is_about(outcome)).map(|known| &known.reason);
     let failure = match (outcome.standing(), known) {
         (Standing::Against | Standing::Unanswered, _) => Some(outcome.to_string()),
+        (Standing::AsExpected, Some(_)) if is_rejected_with_another_seed(outcome) => None,
         (Standing::AsExpected | Standing::NotApplicable, Some(reason)) => {
             Some(format!("known to be rejected ({reason}), and is not\n{outcome}"))
         }
