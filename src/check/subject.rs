@@ -132,7 +132,11 @@ impl fmt::Display for Frames {
 impl FromStr for Frames {
     type Err = String;
 
-    /// Reads a number of strata, 1 to 1024, or the word `sequence`.
+    /// Reads a number of strata, 1 to 1024, or the word `sequence`; one stratum is [`Frames::Static`].
+    ///
+    /// # Errors
+    ///
+    /// For everything else, in words that say what is asked for.
     fn from_str(typed: &str) -> Result<Self, String> {
         if typed == "sequence" {
             return Ok(Self::Sequence);

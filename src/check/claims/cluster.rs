@@ -28,6 +28,9 @@ const ALPHAS: [f64; 2] = [0.25, 0.5];
 const SHAPES: [[usize; 3]; 7] =
     [[8, 8, 1], [8, 1, 8], [1, 8, 8], [16, 16, 1], [16, 1, 16], [1, 16, 16], [8, 8, 8]];
 
+/// Tests where every block has flips enough.
+const POSSIBLE: usize = FROM.len() * ALPHAS.len() * SHAPES.len();
+
 /// Flips that come in blocks.
 pub const CLUSTER: Claim = Claim {
     id: "flips.cluster",
@@ -52,9 +55,8 @@ fn cluster(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     let cells = draw.samples(SEEN_CELLS).max(FEWEST_CELLS);
     for from in FROM {
         let block = Block::draw(cube(cells.ilog2(), &mut rng), &mut rng);
-        let views = [from, from + ZOOM].map(|at| block.seen_at(at).thresholds(subject));
-        let [before, after] = views;
-        let (before, after) = (before?, after?);
+        let seen_at = |fraction: f64| block.seen_at(fraction).thresholds(subject);
+        let (before, after) = (seen_at(from)?, seen_at(from + ZOOM)?);
         n += before.len() as u64;
         for alpha in ALPHAS {
             let flips: Vec<bool> =
@@ -99,6 +101,3 @@ fn cluster(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
         evidence: Evidence::Quantity { abscissa: "cells of a block", ordinate: "variance of flips", points },
     })
 }
-
-/// Tests where every block has flips enough.
-const POSSIBLE: usize = FROM.len() * ALPHAS.len() * SHAPES.len();

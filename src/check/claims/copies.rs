@@ -73,8 +73,8 @@ const FRESH: f64 = 8.0 * SPREAD;
 pub const COPIES: Claim = Claim {
     id: "hash.copies",
     anchor: "§5 (hash outputs replace uniform random numbers); not in the paper",
-    statement: "no shift takes cells to copies of themselves, or to what is 1 less them: none below 4096 cells in a plane of two \
-                axes, none up to 256 in space",
+    statement: "no shift takes more than one cell in 50 to a copy of itself, or to what is 1 less it: none below 4096 cells in a plane \
+                of two axes, none up to 256 in space",
     expected: Verdict::Consistent,
     promise: Some(Promise::Linear(0.75)),
     run: copies,
@@ -84,8 +84,8 @@ pub const COPIES: Claim = Claim {
 pub const SYMMETRY: Claim = Claim {
     id: "cells.symmetry",
     anchor: "§5.1 (hash outputs replace uniform random numbers); not in the paper",
-    statement: "no mirror in one, two or three axes and no exchange of axes takes cells to copies of themselves, or to what is 1 \
-                less them, whatever plane the mirror is",
+    statement: "no mirror in one, two or three axes and no exchange of axes takes more than one cell in 50 to a copy of itself, or to \
+                what is 1 less it, whatever plane the mirror is",
     expected: Verdict::Consistent,
     promise: Some(Promise::Linear(0.75)),
     run: symmetry,
@@ -95,8 +95,9 @@ pub const SYMMETRY: Claim = Claim {
 pub const OCTAVE_COPIES: Claim = Claim {
     id: "hash.octave_copies",
     anchor: "§5.4.2 (two scales); not in the paper",
-    statement: "no octave repeats another one: neither cells of the same index, from octave -20 to 20, nor those of twice, four times \
-                or eight times the index where the cells are as much smaller, from -4 to 4",
+    statement: "no octave repeats more than one cell in 50 of another one, up to 256 cells away in space: neither cells of the same \
+                index, from octave -20 to 20, nor those of twice, four times or eight times the index where the cells are as much \
+                smaller, from -4 to 4",
     expected: Verdict::Consistent,
     promise: Some(Promise::Linear(0.75)),
     run: octave_copies,

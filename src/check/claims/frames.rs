@@ -19,11 +19,11 @@ const FRAMES: [u32; 6] = [0, 1, 2, 7, 1024, u32::MAX];
 /// Frames that follow each other from the first one, and as many at random, at which some of the points are asked.
 const MORE_FRAMES: u32 = 64;
 
-/// Frames of any size from which a period is followed.
-const MORE_STARTS: usize = 14;
-
 /// One point in so many of those.
 const FEWER_POINTS: usize = 16;
+
+/// Frames of any size from which a period is followed.
+const MORE_STARTS: usize = 14;
 
 /// What roundings of `f32` leave between two thresholds of one point in different strata: the sum, the part after the
 /// point and the clamp at 2^-24.
