@@ -15,6 +15,8 @@ use hashed_alpha::check::{
 use hashed_alpha::scene::Fragment;
 use hashed_alpha::stats::sequential::{self, Decision};
 use hashed_alpha::threshold::footprint::Footprint;
+use hashed_alpha::threshold::hash::{Cell, Hash};
+use hashed_alpha::threshold::real::Real;
 use hashed_alpha::threshold::robust::{Join, Repairs, Robust};
 use hashed_alpha::threshold::two_scale::Variant;
 use rayon::prelude::*;
@@ -30,49 +32,41 @@ const LARGER: f64 = 1.1;
 const MOST_MISSES: usize = 2;
 
 /// Claims without a planted effect, with the reason.
-const LEFT: [(&str, &str); 8] = [
+const LEFT: [(&str, &str); 3] = [
     ("range.degenerate", "a fixed table, gone through as a whole: no size is stated"),
     ("uniform.without_cdf", "a negative control"),
     (
         "spectrum.ordinates",
         "its distance is a guarantee for any error in the law, by far not the least that it sees",
     ),
-    ("hash.avalanche", "only its specimens are tried: a bit of an index has to be turned within the hash"),
-    (
-        "hash.octave_avalanche",
-        "only its specimens are tried: a bit of an octave has to be turned within the hash",
-    ),
-    ("hash.copies", "only its specimens are tried: copies lie at one distance within the hash"),
-    ("hash.octave_copies", "only its specimens are tried: copies lie at one distance within the hash"),
-    ("cells.symmetry", "only its specimens are tried: images lie in any plane"),
 ];
 
 /// Shares of thresholds that are drawn anew, for an error of 1 in the share that flips: measured. One that is drawn anew
 /// flips in some cases only, and might have flipped without; over the views of one point all 17 add up.
 const FLIPS_OF_A_SHIFT: f64 = 1.15;
-const FLIPS_OF_VIEWS: f64 = 0.075;
+const FLIPS_OF_VIEWS: f64 = 0.081;
 
 /// The same for an error in the correlation of frames.
 const SERIAL: f64 = 0.54;
 
 /// The same for a relative error in changes per pixel, frontal and tilted.
-const CHANGES: [f64; 2] = [0.13, 0.037];
+const CHANGES: [f64; 2] = [0.163, 0.037];
 
-/// By how much half of the frames are moved, for an error of 1 in the variance of an average over frames: measured.
-const AVERAGE: f64 = 52.0;
+/// Share of fragments that are moved within their stratum, for an error of 1 in the variance of an average over frames: measured.
+const AVERAGE: f64 = 260.0;
 
 /// Power of a change of the size of the noise that multiplies the variance of blocks: measured.
-const VARIANCE: f64 = 0.46;
+const VARIANCE: f64 = 0.52;
 
 /// How much finer cells are along screen x, for a relative error of 1 of the power in a direction: measured.
-const ANISOTROPY: f64 = 0.95;
+const ANISOTROPY: f64 = 1.07;
 
 /// How far thresholds of a block of 8 x 8 x 8 cells are moved together in each view, for the root of the correlation in a block:
 /// measured.
-const CLUSTERS: f64 = 2.1;
+const CLUSTERS: f64 = 2.42;
 
 /// From a key, a sound threshold over it and the size of an effect to a threshold that has it.
-type Plant = Box<dyn Fn(u64, Subject<'static>, f64) -> Subject<'static>>;
+type Plant = Box<dyn Fn(u64, Subject<'static>, f64) -> Subject<'static> + Sync>;
 
 /// What kind of sound threshold the effect is planted into.
 #[derive(Clone, Copy, PartialEq)]
@@ -211,6 +205,61 @@ fn resized(key: u64, hash_scale: f64) -> Subject<'static> {
     subject
 }
 
+/// The ideal source, in which a share of cells have what `related` makes of the value of another cell and of their own; the other
+/// cell may be tied to one further on.
+#[derive(Clone, Copy)]
+struct Tied {
+    ideal: Ideal,
+    key: u64,
+    share: f64,
+    other: fn([i64; 3], i32) -> Option<([i64; 3], i32)>,
+    related: fn(f64, f64) -> f64,
+}
+
+impl Tied {
+    fn is_drawn(&self, [x, y, z]: [i64; 3], octave: i32) -> bool {
+        coin(self.key, &[x as f64, y as f64, z as f64, f64::from(octave)]) < self.share
+    }
+}
+
+impl<R: Real> Hash<R> for Tied {
+    fn hash(&self, cell: &Cell<R>) -> R {
+        let [x, y, z, octave] = cell.words().map(u32::cast_signed);
+        let mut at = ([x, y, z].map(i64::from), octave);
+        while let Some(other) = (self.other)(at.0, at.1).filter(|_| self.is_drawn(at.0, at.1)) {
+            at = other;
+        }
+        let own: R = self.ideal.hash(cell);
+        let index = at.0.map(|index| R::from_f64(index as f64)).into();
+        let other: R = self.ideal.hash(&Cell { index, octave: at.1.cast_unsigned() });
+        R::from_f64((self.related)(other.to_f64(), own.to_f64()))
+    }
+}
+
+/// A threshold over [`Tied`] cells.
+fn tied(
+    key: u64,
+    share: f64,
+    other: fn([i64; 3], i32) -> Option<([i64; 3], i32)>,
+    related: fn(f64, f64) -> f64,
+) -> Subject<'static> {
+    let hash = Tied { ideal: Ideal::new(key), key, share, other, related };
+    let robust = Robust {
+        variant: Variant::Isotropic,
+        hash,
+        hash_scale: 1.0,
+        join: Join::Copula,
+        repairs: Repairs::ALL,
+    };
+    Subject::robust("planted", Precision::F64, robust)
+}
+
+/// The first half or the second as in the one, the place in it as in the other.
+fn top_bit_of(one: f64, other: f64) -> f64 {
+    let half = |x: f64| (2.0 * x).floor();
+    0.5 * (half(one) + 2.0 * other - half(other))
+}
+
 /// How the effect that a claim measures is planted at a given size.
 fn plant(claim: &str) -> Option<(Ground, Plant)> {
     use Ground::{Continuous, Frames, Paper, Sequence};
@@ -331,6 +380,41 @@ fn plant(claim: &str) -> Option<(Ground, Plant)> {
                 })
             }),
         ),
+        // One bit less in a share of cells: half of those have another first bit all the same.
+        "hash.avalanche" => (
+            Continuous,
+            Box::new(|key, _, size| {
+                let other = |[x, y, z]: [i64; 3], octave| (y & 32 != 0).then_some(([x, y ^ 32, z], octave));
+                tied(key, 2.0 * size, other, top_bit_of)
+            }),
+        ),
+        "hash.octave_avalanche" => (
+            Continuous,
+            Box::new(|key, _, size| {
+                let other = |index, octave| (octave & 2 != 0).then_some((index, octave ^ 2));
+                tied(key, 2.0 * size, other, top_bit_of)
+            }),
+        ),
+        // A share of cells are copies of what others would be.
+        "hash.copies" => (
+            Continuous,
+            Box::new(|key, _, size| {
+                tied(key, size, |[x, y, z], octave| Some(([x - 37, y + 3, z], octave)), |other, _| other)
+            }),
+        ),
+        "hash.octave_copies" => (
+            Continuous,
+            Box::new(|key, _, size| {
+                tied(key, size, |index, octave| Some((index, octave - 3)), |other, _| other)
+            }),
+        ),
+        "cells.symmetry" => (
+            Continuous,
+            Box::new(|key, _, size| {
+                let mirrored = |[x, y, z]: [i64; 3], octave| (x < 0).then_some(([-1 - x, y, z], octave));
+                tied(key, size, mirrored, |other, _| other)
+            }),
+        ),
         "hash.resonance" => (Continuous, Box::new(|_, base, size| copied(base, size, 2, 1))),
         "cells.mirror" => (Continuous, Box::new(|_, base, size| copied(base, size, 4, 1))),
         "cells.origin" => (Continuous, Box::new(|_, base, size| each(base, move |_, x| x * (1.0 - size)))),
@@ -345,16 +429,14 @@ fn plant(claim: &str) -> Option<(Ground, Plant)> {
             (Continuous, redrawn(FLIPS_OF_VIEWS))
         }
         "frames.serial" => (Continuous, redrawn(SERIAL)),
-        // Frames in twos move together, by less than half of a stratum, so that the order of strata stays what it is.
+        // In a share of fragments by up to a quarter of a stratum, so that the order of strata stays what it is.
         "frames.average" => (
             Frames,
             Box::new(|_, base, size| {
-                each(
-                    base,
-                    move |at, x| {
-                        if at.frame % 4 < 2 { (x + AVERAGE * size).rem_euclid(1.0) } else { x }
-                    },
-                )
+                each(base, move |at, x| {
+                    let moved = (x + (coin_of(2, at) - 0.5) / 16.0).rem_euclid(1.0);
+                    if coin_of(1, at) < AVERAGE * size { moved } else { x }
+                })
             }),
         ),
         "coverage.variance" => {
@@ -539,6 +621,53 @@ fn what_is_a_tenth_larger_than_the_stated_size_is_seen() {
         })
         .collect();
     assert!(misses.len() <= MOST_MISSES, "{} misses: {misses:#?}", misses.len());
+}
+
+/// Claims whose effect is planted by a measured factor.
+const MEASURED: [&str; 14] = [
+    "flips.translation",
+    "flips.zoom",
+    "flips.rotation",
+    "flips.tilt",
+    "flips.skinning",
+    "flips.cluster",
+    "frames.serial",
+    "frames.average",
+    "coverage.variance",
+    "spectrum.anisotropy",
+    "noise_scale.frontal",
+    "noise_scale.tilted",
+    "planes.axis_aligned",
+    "planes.dyadic",
+];
+
+/// The size at which it is measured, for the stated one: large beside what chance adds to the worst of several.
+const TWICE: f64 = 2.0;
+
+/// What may come out for an effect of 1: chance makes the worst of several some 10 % larger.
+const AS_ASKED: core::ops::Range<f64> = 0.95..1.25;
+
+/// What is planted is what is seen.
+#[test]
+fn effects_are_planted_as_large_as_asked() {
+    let seeds: u64 = budget().pick(2, 4, 20);
+    let off: Vec<String> = planted()
+        .into_iter()
+        .filter(|(claim, ..)| MEASURED.contains(&claim.id))
+        .filter_map(|(claim, ground, plant)| {
+            let draw = |seed| Draw { budget: Budget::Quick, ..Draw::seeded(seed) };
+            let stated = tried(claim, &ground.subject(0), &draw(0)).detectable.expect("a size");
+            let mean = |times: f64| {
+                let subject = |seed| plant(seed, ground.subject(seed), times * stated);
+                let seen = |seed| tried(claim, &subject(seed), &draw(seed)).effect.expect("an effect");
+                (0..seeds).into_par_iter().map(seen).sum::<f64>() / seeds as f64
+            };
+            let part = mean(TWICE) / (TWICE * stated);
+            println!("{} {part:.3}", claim.id);
+            (!AS_ASKED.contains(&part)).then(|| format!("{}: {part:.3} of what was asked", claim.id))
+        })
+        .collect();
+    assert!(off.is_empty(), "{off:#?}");
 }
 
 /// A defect that lives on a sixteenth of the lerp factors is as large there as the claim says it sees.
