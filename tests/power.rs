@@ -205,6 +205,12 @@ fn resized(key: u64, hash_scale: f64) -> Subject<'static> {
     subject
 }
 
+/// A cell and its octave.
+type Place = ([i64; 3], i32);
+
+/// The cell to which one may be tied.
+type Other = fn([i64; 3], i32) -> Option<Place>;
+
 /// The ideal source, in which a share of cells have what `related` makes of the value of another cell and of their own; the other
 /// cell may be tied to one further on.
 #[derive(Clone, Copy)]
@@ -212,7 +218,7 @@ struct Tied {
     ideal: Ideal,
     key: u64,
     share: f64,
-    other: fn([i64; 3], i32) -> Option<([i64; 3], i32)>,
+    other: Other,
     related: fn(f64, f64) -> f64,
 }
 
@@ -237,12 +243,7 @@ impl<R: Real> Hash<R> for Tied {
 }
 
 /// A threshold over [`Tied`] cells.
-fn tied(
-    key: u64,
-    share: f64,
-    other: fn([i64; 3], i32) -> Option<([i64; 3], i32)>,
-    related: fn(f64, f64) -> f64,
-) -> Subject<'static> {
+fn tied(key: u64, share: f64, other: Other, related: fn(f64, f64) -> f64) -> Subject<'static> {
     let hash = Tied { ideal: Ideal::new(key), key, share, other, related };
     let robust = Robust {
         variant: Variant::Isotropic,
@@ -663,7 +664,6 @@ fn effects_are_planted_as_large_as_asked() {
                 (0..seeds).into_par_iter().map(seen).sum::<f64>() / seeds as f64
             };
             let part = mean(TWICE) / (TWICE * stated);
-            println!("{} {part:.3}", claim.id);
             (!AS_ASKED.contains(&part)).then(|| format!("{}: {part:.3} of what was asked", claim.id))
         })
         .collect();

@@ -86,6 +86,7 @@ pub struct Joined<R: Real> {
 }
 
 /// Joins the hashes of the cells around `position`.
+#[inline(always)]
 pub(super) fn joined<R: Real, H: Hash<R>>(
     join: Join,
     variant: Variant,
@@ -137,6 +138,7 @@ pub(super) fn joined<R: Real, H: Hash<R>>(
 }
 
 /// Mixes two hashes, and makes the mixture uniform by Eq. 2.
+#[inline(always)]
 fn interpolated<R: Real>(coarse: R, fine: R, weight: R, repairs: Repairs) -> (R, R) {
     let mixture = (R::from_f64(1.0) - weight) * coarse + weight * fine;
     let law = if repairs.contains(Repair::StableCdf) { cdf } else { cdf_literal };
@@ -147,6 +149,7 @@ fn interpolated<R: Real>(coarse: R, fine: R, weight: R, repairs: Repairs) -> (R,
 pub(in crate::threshold) const CHOICE: u32 = 0x8000_0000;
 
 /// The one-dimensional cell by which an axis chooses its octave: its own interval and octave, nothing of the others.
+#[inline(always)]
 fn interval<R: Real>(coarse: &Cell<R>, axis: usize, octave: i32) -> Cell<R> {
     let zero = R::from_f64(0.0);
     let index: [R; 3] = coarse.index.into();
@@ -155,6 +158,7 @@ fn interval<R: Real>(coarse: &Cell<R>, axis: usize, octave: i32) -> Cell<R> {
 }
 
 /// Whether an axis takes its finer octave: chosen by the hash of its interval.
+#[inline(always)]
 fn takes_fine<R: Real>(hash: &impl Hash<R>, coarse: &Cell<R>, axis: usize, octave: i32, fraction: R) -> bool {
     fraction > hash.hash(&interval(coarse, axis, octave))
 }

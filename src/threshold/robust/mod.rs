@@ -128,7 +128,22 @@ impl<H> Robust<H> {
     where
         H: Hash<R>,
     {
-        self.trace(footprint).map(|trace| trace.threshold)
+        use Join::{Copula, Dithered, Interpolate};
+        use Variant::{Anisotropic, Isotropic};
+        const ALL: Repairs = Repairs::ALL;
+        let of = (self.variant == Anisotropic, self.join);
+        // Each arm is compiled for what it names, and without the values on the way that nobody asks for.
+        let trace = match of {
+            (false, Interpolate) if self.repairs == ALL => {
+                self.traced(Isotropic, Interpolate, ALL, footprint)
+            }
+            (false, Copula) if self.repairs == ALL => self.traced(Isotropic, Copula, ALL, footprint),
+            (false, Dithered) if self.repairs == ALL => self.traced(Isotropic, Dithered, ALL, footprint),
+            (true, Copula) if self.repairs == ALL => self.traced(Anisotropic, Copula, ALL, footprint),
+            (true, Dithered) if self.repairs == ALL => self.traced(Anisotropic, Dithered, ALL, footprint),
+            (_, Interpolate | Copula | Dithered) => self.trace(footprint),
+        };
+        trace.map(|trace| trace.threshold)
     }
 
     /// Returns the threshold of a footprint with every value on the way.
@@ -140,14 +155,28 @@ impl<H> Robust<H> {
     where
         H: Hash<R>,
     {
-        if self.repairs.contains(Repair::ValidateInputs) {
+        self.traced(self.variant, self.join, self.repairs, footprint)
+    }
+
+    /// The trace of a variant, join and repairs that the caller may know before it runs.
+    #[inline(always)]
+    fn traced<R: Real>(
+        &self,
+        variant: Variant,
+        join: Join,
+        repairs: Repairs,
+        footprint: &Footprint<R>,
+    ) -> Result<RobustTrace<R>, InvalidInput>
+    where
+        H: Hash<R>,
+    {
+        if repairs.contains(Repair::ValidateInputs) {
             validate(footprint, self.hash_scale)?;
         }
         let hash_scale = R::from_f64(self.hash_scale);
-        let scales = scales::robust_scales(self.variant, footprint, hash_scale, self.repairs);
-        let joined =
-            join::joined(self.join, self.variant, &self.hash, footprint.position, &scales, self.repairs);
-        let smallest = if self.repairs.contains(Repair::FinalClamp) {
+        let scales = scales::robust_scales(variant, footprint, hash_scale, repairs);
+        let joined = join::joined(join, variant, &self.hash, footprint.position, &scales, repairs);
+        let smallest = if repairs.contains(Repair::FinalClamp) {
             SMALLEST_ROBUST_THRESHOLD
         } else {
             super::hashed::SMALLEST_THRESHOLD
@@ -157,6 +186,7 @@ impl<H> Robust<H> {
     }
 }
 
+#[inline(always)]
 fn validate<R: Real>(footprint: &Footprint<R>, hash_scale: f64) -> Result<(), InvalidInput> {
     if !(hash_scale.is_finite() && hash_scale > 0.0) {
         return Err(InvalidInput::HashScale(hash_scale));
@@ -183,6 +213,7 @@ fn not_finite<R: Real>(footprint: &Footprint<R>) -> Result<(), InvalidInput> {
     }
 }
 
+#[inline(always)]
 fn all_finite<R: Real>(v: [R; 3]) -> bool {
     let [x, y, z] = v;
     x.is_finite() && y.is_finite() && z.is_finite()

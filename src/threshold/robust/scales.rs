@@ -36,7 +36,7 @@ pub(in crate::threshold) fn side_bounds<R: Real>() -> [R; 2] {
 }
 
 /// Finds the octaves of a footprint. `variant` is isotropic, or anisotropic; other variants count as isotropic.
-#[inline]
+#[inline(always)]
 #[must_use]
 pub fn robust_scales<R: Real>(
     variant: Variant,
@@ -100,7 +100,7 @@ const F64_MANTISSA: u64 = (1 << (f64::MANTISSA_DIGITS - 1)) - 1;
 /// The logarithm of a mantissa has all its digits after the point; that of a scale spends up to seven of them on the
 /// octave, and the weight of the join would have an error of half its last digit. What is not a positive number has
 /// no exponent and goes by the logarithm. Not in the paper.
-#[inline]
+#[inline(always)]
 #[must_use]
 pub fn by_exponent<R: Real>(scale: R) -> (i32, i32, R) {
     let wide = scale.to_f64();
@@ -128,7 +128,7 @@ pub(in crate::threshold) fn below_one<R: Real>(fraction: R) -> R {
 ///
 /// With [`Repair::NestedPhase`] the cells of octave k begin 1/3 of a cell below whole numbers where k is even and 2/3
 /// where it is odd; every boundary of one octave is then a boundary of the next one, up to one rounding of 1/3.
-#[inline]
+#[inline(always)]
 #[must_use]
 pub fn nested_cell<R: Real>(position: R::Vec3, octave: [i32; 3], repairs: Repairs) -> Cell<R> {
     let [x, y, z]: [R; 3] = position.into();
@@ -209,6 +209,7 @@ fn largest_component<R: Real>([x, y, z]: [R; 3]) -> R {
 }
 
 /// Returns the Euclidean length; scaled where the plain sum of squares under- or overflows.
+#[inline(always)]
 fn safe_length<R: Real>(v: [R; 3]) -> R {
     let plain = length_of(v);
     // Less than half the range of exponents, so that a square stays within it: 2^-50 and 2^60 in `f32`.
