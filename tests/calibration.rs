@@ -260,7 +260,8 @@ fn page(runs: usize, tables: &BTreeMap<Setting, Vec<Calibration>>) -> String {
          `HASHED_ALPHA_RUNS={runs} HASHED_ALPHA_BLESS=all cargo test --test main calibration::`.\n\n\
          A p-value that is the least of several (Bonferroni) or that of a count may be larger than uniform, never \
          smaller;\nthe distance is then the excess of their distribution function over the uniform one. It has to be small \
-         in some runs\nall the same. Some p-values are bounds, and say little on a sound source:\n\n"
+         in some runs\nall the same. A distance that must stay below 1 or more is no test: there are too few runs, and all that is \
+         said is\nthat none of them rejected anything. Some p-values are bounds, and say little on a sound source:\n\n"
     );
     for (claim, law) in LAWS {
         if let Law::Bound(reason) = law {

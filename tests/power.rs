@@ -17,7 +17,7 @@ use hashed_alpha::stats::sequential::{self, Decision};
 use hashed_alpha::threshold::footprint::Footprint;
 use hashed_alpha::threshold::hash::{Cell, Hash};
 use hashed_alpha::threshold::real::Real;
-use hashed_alpha::threshold::robust::{Join, Repairs, Robust};
+use hashed_alpha::threshold::robust::{Join, Robust};
 use hashed_alpha::threshold::two_scale::Variant;
 use rayon::prelude::*;
 use siphasher::sip::SipHasher24;
@@ -194,14 +194,8 @@ fn popping(share: f64, at_the_octave: bool) -> impl Fn(&Fragment, f64) -> f64 + 
 
 /// The ideal threshold with noise of another size, which it does not say.
 fn resized(key: u64, hash_scale: f64) -> Subject<'static> {
-    let robust = Robust {
-        variant: Variant::Isotropic,
-        hash: Ideal::new(key),
-        hash_scale,
-        join: Join::Copula,
-        repairs: Repairs::ALL,
-    };
-    let mut subject = Subject::robust("planted", Precision::F64, robust);
+    let robust = Robust { join: Join::Copula, hash_scale, ..Robust::new(Variant::Isotropic) };
+    let mut subject = Subject::robust("planted", Precision::F64, robust.with_hash(Ideal::new(key)));
     subject.hash_scale = 1.0;
     subject
 }
@@ -246,14 +240,8 @@ impl<R: Real> Hash<R> for Tied {
 /// A threshold over [`Tied`] cells.
 fn tied(key: u64, share: f64, other: Other, related: fn(f64, f64) -> f64) -> Subject<'static> {
     let hash = Tied { ideal: Ideal::new(key), key, share, other, related };
-    let robust = Robust {
-        variant: Variant::Isotropic,
-        hash,
-        hash_scale: 1.0,
-        join: Join::Copula,
-        repairs: Repairs::ALL,
-    };
-    Subject::robust("planted", Precision::F64, robust)
+    let robust = Robust { join: Join::Copula, ..Robust::new(Variant::Isotropic) };
+    Subject::robust("planted", Precision::F64, robust.with_hash(hash))
 }
 
 /// The first half or the second as in the one, the place in it as in the other.
