@@ -145,8 +145,12 @@ fn interpolated<R: Real>(coarse: R, fine: R, weight: R, repairs: Repairs) -> (R,
     (mixture, law(mixture, weight))
 }
 
-/// Tells the words of the choosing hash from those of cells.
-pub(in crate::threshold) const CHOICE: u32 = 0x8000_0000;
+/// Tells the words of the choosing hash from those of cells: bits of the root of 2, which no octave has. One bit would be
+/// too few: PCG4D turns a difference in the highest alone into the same value half a unit away, in a quarter of the cells.
+pub(in crate::threshold) const CHOICE: u32 = 0x6a09_e667;
+
+/// The same for each axis that chooses alone: the roots of 3, 5 and 7.
+const CHOICE_OF_AXIS: [u32; 3] = [0xbb67_ae85, 0x3c6e_f372, 0xa54f_f53a];
 
 /// The one-dimensional cell by which an axis chooses its octave: its own interval and octave, nothing of the others.
 #[inline(always)]
@@ -166,7 +170,7 @@ fn takes_fine<R: Real>(hash: &impl Hash<R>, coarse: &Cell<R>, axis: usize, octav
 /// The word of such an interval.
 #[inline(always)]
 pub(in crate::threshold) fn interval_word(axis: usize, octave: i32) -> u32 {
-    CHOICE ^ ((axis as u32) << 24) ^ (octave as u32 & 0xffff)
+    CHOICE_OF_AXIS[axis] ^ octave as u32
 }
 
 /// Mixes the corners of the box of octaves by trilinear weights, as normal quantiles of unit variance.

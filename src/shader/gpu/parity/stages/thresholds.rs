@@ -116,7 +116,7 @@ pub(super) const STAGES: &[Stage] = &[
         "threshold robust isotropic copula", COPULA, Isotropic, Copula, nine, ["sum / sqrt(", "sum * sqrt("]
     ),
     robust_stage!(
-        "threshold robust isotropic dithered", Class::Bits, Isotropic, Dithered, steady, ["^ 0x80000000u", "^ 0x40000000u"]
+        "threshold robust isotropic dithered", Class::Bits, Isotropic, Dithered, steady, ["^ 0x6a09e667u", "^ 0x6a09e666u"]
     ),
     robust_stage!(
         "threshold robust anisotropic interpolate", ROBUST, Anisotropic, Interpolate, steady, ["let to_ceil = length_of(1.0 - fraction)", "let to_ceil = length_of(fraction)"]
@@ -125,6 +125,6 @@ pub(super) const STAGES: &[Stage] = &[
         "threshold robust anisotropic copula", COPULA, Anisotropic, Copula, nine, ["0x1p-21f", "0x1p-8f"]
     ),
     robust_stage!(
-        "threshold robust anisotropic dithered", Class::Bits, Anisotropic, Dithered, steady, ["axis << 24u", "axis << 25u"]
+        "threshold robust anisotropic dithered", Class::Bits, Anisotropic, Dithered, steady, ["0xbb67ae85u", "0xbb67ae84u"]
     ),
 ];
