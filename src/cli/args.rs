@@ -84,7 +84,7 @@ A file of known findings makes the exit code speak of news alone:
   reason = \"all cells of one z share a bias\"")]
 pub struct CheckArgs {
     /// Subjects to try: `paper`, `robust`, or one variant of them as in `paper:isotropic`; the same on a device as in
-    /// `gpu:robust`; a shader file that ends in .wgsl, .glsl, .frag, .vert, .comp, .fs, .vs or .spv, with `#NAME` behind it
+    /// `gpu:robust`; a shader file (.wgsl, .glsl, .frag, .fsh, .spv, ... or between the quotes of a .js, .ts, .py, .h), with `#NAME` behind it
     /// for a function of it; one hash alone as in `hash:mm4`, or as a shader's function from `vec4u` to `u32`. `robust` when none
     /// is given
     #[arg(value_name = "SUBJECT")]
@@ -168,6 +168,10 @@ pub struct ShaderArgs {
     /// among several. Can be given several times
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
+    /// What a shader file calls a value of the fragment, as in position=wpos where a parameter, varying or uniform `wpos` holds the
+    /// position. The usual names (pos, vPosition, uv, gl_FragCoord, ...) are known. FILE#KEY=NAME for one file among several
+    #[arg(long, value_name = "KEY=NAME")]
+    pub map: Vec<String>,
     /// Where a shader runs: `auto` is the GPU if there is one and the interpreter otherwise, `device-model` is the interpreter
     /// under the arithmetic of several devices
     #[arg(long, default_value = "auto", value_parser = one_of(On::ALL, On::name))]

@@ -35,48 +35,65 @@ impl<'a> ShaderFile<'a> {
 
     /// Returns what is asked of the file: values that name it go before those that hold for every file.
     pub fn options(&self, args: &ShaderArgs) -> Result<own::Options, Failure> {
-        let mut settings = BTreeMap::new();
-        let (own, shared): (Vec<_>, Vec<_>) =
-            read_settings(&args.set)?.into_iter().partition(|((file, _), _)| file.is_some());
-        let own = own.into_iter().filter(|((file, _), _)| *file == Some(self.path));
-        for ((_, key), value) in shared.into_iter().chain(own) {
-            settings.insert(key.to_owned(), value.to_owned());
-        }
         let function = self.function.unwrap_or(&args.function).to_owned();
-        Ok(own::Options { function, settings })
+        Ok(own::Options { function, settings: self.own(&SET, &args.set)?, map: self.own(&MAP, &args.map)? })
+    }
+
+    /// What an option says for this file: values that name it go before those that hold for every file.
+    fn own(&self, option: &Pairs, typed: &[String]) -> Result<BTreeMap<String, String>, Failure> {
+        let (own, shared): (Vec<_>, Vec<_>) =
+            option.read(typed)?.into_iter().partition(|((file, _), _)| file.is_some());
+        let own = own.into_iter().filter(|((file, _), _)| *file == Some(self.path));
+        let pair = |((_, key), value): ((Option<&str>, &str), &str)| (key.to_owned(), value.to_owned());
+        Ok(shared.into_iter().chain(own).map(pair).collect())
     }
 }
 
 /// Refuses a value for a file that is not among the subjects `typed`.
 pub fn refuse_strays(typed: &[&str], args: &ShaderArgs) -> Result<(), Failure> {
-    for ((file, key), value) in read_settings(&args.set)? {
-        if let Some(file) = file
-            && !typed.iter().filter_map(|word| ShaderFile::of(word)).any(|typed| typed.path == file)
-        {
-            return Err(Failure::Usage(format!(
-                "--set {file}#{key}={value}: {file} is none of the files of this run"
-            )));
+    for (option, typed_pairs) in [(SET, &args.set), (MAP, &args.map)] {
+        for ((file, key), value) in option.read(typed_pairs)? {
+            if let Some(file) = file
+                && !typed.iter().filter_map(|word| ShaderFile::of(word)).any(|typed| typed.path == file)
+            {
+                return Err(Failure::Usage(format!(
+                    "{} {file}#{key}={value}: {file} is none of the files of this run",
+                    option.name
+                )));
+            }
         }
     }
     Ok(())
 }
 
-/// The values of `--set` by file, where one is named, and key.
-fn read_settings(typed: &[String]) -> Result<BTreeMap<(Option<&str>, &str), &str>, Failure> {
-    let mut settings = BTreeMap::new();
-    for setting in typed {
-        let (key, value) = setting
-            .split_once('=')
-            .ok_or_else(|| Failure::Usage(format!("--set {setting}: write KEY=VALUE, as in hash_scale=2")))?;
-        let (file, key) = key.rsplit_once('#').map_or((None, key), |(file, key)| (Some(file), key));
-        if let Some(before) = settings.insert((file, key.trim()), value.trim()) {
-            return Err(Failure::Usage(format!(
-                "--set {setting}: {} has a value already, {before}",
-                key.trim()
-            )));
+/// An option that takes pairs, each for every file or for one.
+struct Pairs {
+    name: &'static str,
+    form: &'static str,
+}
+
+const SET: Pairs = Pairs { name: "--set", form: "KEY=VALUE, as in hash_scale=2" };
+const MAP: Pairs = Pairs { name: "--map", form: "KEY=NAME, as in position=pos" };
+
+impl Pairs {
+    /// Reads what was typed, by file, where one is named, and key.
+    fn read<'t>(
+        &self,
+        typed: &'t [String],
+    ) -> Result<BTreeMap<(Option<&'t str>, &'t str), &'t str>, Failure> {
+        let Self { name, form } = self;
+        let mut pairs = BTreeMap::new();
+        for pair in typed {
+            let (key, value) =
+                pair.split_once('=').ok_or_else(|| Failure::Usage(format!("{name} {pair}: write {form}")))?;
+            let (file, key) = key.rsplit_once('#').map_or((None, key), |(file, key)| (Some(file), key));
+            if let Some(before) = pairs.insert((file, key.trim()), value.trim()) {
+                let key = key.trim();
+                return Err(Failure::Usage(format!("{name} {pair}: {key} has a value already, {before}")));
+            }
         }
+        Ok(pairs)
     }
-    Ok(settings)
 }
 
 #[cfg(test)]
@@ -116,6 +133,12 @@ mod tests {
             (options("a.glsl#g").function, options("b.glsl").function),
             ("g".to_owned(), "f".to_owned())
         );
+        let mapped = args(&["--map", "position=q", "--map", "a.glsl#position=p"]);
+        let map = |word: &str| {
+            ShaderFile::of(word).unwrap().options(&mapped).unwrap().map.into_values().collect::<Vec<_>>()
+        };
+        assert_eq!((map("a.glsl"), map("b.glsl")), (vec!["p".to_owned()], vec!["q".to_owned()]));
+        assert!(refuse_strays(&["b.glsl"], &mapped).is_err());
         assert!(refuse_strays(&["a.glsl#g"], &typed).is_ok());
         let error = refuse_strays(&["b.glsl"], &typed).unwrap_err().to_string();
         assert!(error.ends_with("a.glsl is none of the files of this run"), "{error}");
@@ -123,9 +146,11 @@ mod tests {
 
     #[test]
     fn a_setting_has_a_key_and_one_value() {
-        let error = |options: &[&str]| read_settings(&args(options).set).unwrap_err().to_string();
+        let error = |options: &[&str]| SET.read(&args(options).set).unwrap_err().to_string();
         assert!(error(&["--set", "hash_scale"]).contains("write KEY=VALUE"));
         let twice = error(&["--set", "k=1", "--set", "k=2"]);
         assert_eq!(twice, "--set k=2: k has a value already, 1");
+        let without = MAP.read(&["position".to_owned()]).unwrap_err().to_string();
+        assert_eq!(without, "--map position: write KEY=NAME, as in position=pos");
     }
 }

@@ -9,7 +9,7 @@ use hashed_alpha::check::{Frames, Subject, subject::Precision};
 use hashed_alpha::render::scene_file::diagnostic::likely;
 use hashed_alpha::scene::{Fragment, Scene};
 use hashed_alpha::shader::interpreter::DeviceModel;
-use hashed_alpha::shader::own::{self, OwnShader};
+use hashed_alpha::shader::own::{self, ENDINGS, OwnShader};
 use hashed_alpha::threshold::hash::{HashKind, UnknownName};
 use hashed_alpha::threshold::pipeline::Pipeline;
 use hashed_alpha::threshold::robust::{Join, Robust};
@@ -130,7 +130,7 @@ pub fn subjects(typed: &[String], args: &ShaderArgs) -> Result<Vec<Asked>, Failu
 fn unknown(word: &str) -> Failure {
     Failure::Usage(format!(
         "unknown subject `{word}`; known are paper:isotropic, paper:anisotropic, robust:isotropic, \
-         robust:anisotropic, each with gpu: before it too, hash: with the name of a hash behind it, and files that end in .wgsl, .glsl, .frag, .vert, .comp, .fs, .vs or .spv"
+         robust:anisotropic, each with gpu: before it too, hash: with the name of a hash behind it, and files that end in {ENDINGS}"
     ))
 }
 
@@ -204,6 +204,10 @@ fn file(typed: &ShaderFile<'_>, args: &ShaderArgs) -> Result<Vec<Asked>, Failure
     let set = || options.settings.get("hash_scale").and_then(|value| value.parse().ok());
     let hash_scale = args.hash_scale.or_else(set).unwrap_or(1.0);
     let shader = own::read(Path::new(typed.path), &options)?;
+    if !shader.taken.is_empty() {
+        let said: Vec<_> = shader.taken.iter().map(ToString::to_string).collect();
+        output::remark("note", format_args!("in {} {}", typed.name(), said.join(", ")));
+    }
     if shader.is_hash() {
         return own_hash(&typed.name(), &shader, args);
     }

@@ -7,6 +7,8 @@ use hashed_alpha::shader::own::{
     Input, LARGEST_FILE, Language, Options, OwnShader, Place, Value, parse, read,
 };
 use hashed_alpha::threshold::footprint::Footprint;
+use hashed_alpha::threshold::robust::Robust;
+use hashed_alpha::threshold::two_scale::Variant;
 use proptest::prelude::*;
 use std::path::{Path, PathBuf};
 

@@ -234,8 +234,8 @@ fn messages_are_in_the_words_of_the_file() {
             "own.glsl:2:16: `vPos` has no value: it is declared nowhere",
         ),
         (
-            "vec3 vPos;\nfloat other() { return vPos.x; }\nfloat threshold() { return other(); }",
-            "own.glsl:1:6: `vPos` has no value: nothing that `threshold` comes to writes it",
+            "vec3 glow;\nfloat other() { return glow.x; }\nfloat threshold() { return other(); }",
+            "own.glsl:1:6: `glow` has no value: nothing that `threshold` comes to writes it",
         ),
         (
             "float f(float x);\nfloat g(float x) { return f(x); }\nfloat f(float x) { return g(x); }

@@ -379,3 +379,193 @@ fn spir_v_of_another_compiler_is_taken() {
     assert_eq!(inputs, [Input::Position, Input::Dpdx]);
     assert_eq!(threshold(&shader, [2.0, 0.0, 0.0]), 1.125);
 }
+
+/// What became of the names of a shader.
+fn taken(shader: &OwnShader) -> Vec<String> {
+    shader.taken.iter().map(ToString::to_string).collect()
+}
+
+#[test]
+fn the_usual_names_of_the_values_of_a_fragment_are_known() {
+    for (text, names) in [
+        ("float threshold(vec3 pos) { return fract(pos.x); }", "pos position"),
+        (
+            "float threshold(vec3 P, float hashScale) { return fract(P.x) * hashScale; }",
+            "P position, hashScale hash_scale",
+        ),
+        ("in vec3 vPos;\nfloat threshold() { return fract(vPos.x); }", "vPos position"),
+        (
+            "varying vec3 v_position;
+             float g() { return v_position.x; }
+             float threshold() { return fract(g()); }",
+            "v_position position",
+        ),
+        ("float threshold(vec4 worldPos) { return fract(worldPos.x) * worldPos.w; }", "worldPos position"),
+        (
+            "uniform int u_frame;
+             float threshold(vec3 position) { return fract(position.x) + 0.0 * float(u_frame); }",
+            "u_frame frame",
+        ),
+        (
+            "float threshold(vec3 position) { return fract(position.x) + 0.0 * gl_FragCoord.w; }",
+            "gl_FragCoord pixel",
+        ),
+        ("float threshold(vec3 p_0) { return fract(p_0.x + length(dFdx(p_0)) - 0.125); }", "p_0 position"),
+    ] {
+        let shader = glsl(text, &options(&[])).unwrap_or_else(|error| panic!("{error}"));
+        let wanted = names.split(", ").map(|pair| pair.split_once(' ').unwrap());
+        let wanted: Vec<_> = wanted.map(|(name, value)| format!("`{name}` is taken for `{value}`")).collect();
+        assert_eq!(taken(&shader), wanted, "{text}");
+        assert_eq!(threshold(&shader, [0.375, 0.0, 0.0]), 0.375, "{text}");
+    }
+    let text = "@group(0) @binding(0) var<uniform> frameIndex: u32;
+        fn threshold(wpos: vec3f, dFoo: vec3f) -> f32 {
+            return fract(wpos.x + dpdx(wpos).x - 0.125) + 0.0 * f32(frameIndex) + dFoo.x;
+        }";
+    let shader = wgsl(text, &options(&[("dFoo", "0,0,0")])).unwrap();
+    assert_eq!(taken(&shader), ["`wpos` is taken for `position`", "`frameIndex` is taken for `frame`"]);
+    assert_eq!(threshold(&shader, [0.375, 0.0, 0.0]), 0.375);
+}
+
+#[test]
+fn what_could_be_either_is_asked_for() {
+    for (text, wanted) in [
+        ("float threshold(vec3 position, vec3 pos) { return pos.x; }", "--map position=pos"),
+        ("float threshold(vec3 pos, vec3 coord) { return pos.x + coord.x; }", "--map position=pos"),
+        ("float threshold(vec2 pos) { return pos.x; }", "--map pixel=pos"),
+    ] {
+        let error = glsl(text, &options(&[])).unwrap_err();
+        assert!(error.contains(wanted), "{error}");
+    }
+    // A value that is given goes before a meaning that is guessed.
+    let shader =
+        glsl("float threshold(vec3 pos) { return pos.x; }", &options(&[("pos", "0.5,0,0")])).unwrap();
+    assert!(shader.taken.is_empty());
+    assert_eq!(threshold(&shader, [0.375, 0.0, 0.0]), 0.5);
+}
+
+#[test]
+fn a_user_says_what_other_names_mean() {
+    let map = |pairs: &[(&str, &str)]| Options {
+        map: pairs.iter().map(|(value, name)| ((*value).to_owned(), (*name).to_owned())).collect(),
+        ..Options::default()
+    };
+    let text = "uniform vec2 jitter;
+        in vec3 there;
+        float threshold(vec3 here, vec3 a, vec3 b) {
+            return fract(here.x + a.x + b.y + length(dFdx(here)) - 0.5 + 0.0 * jitter.x * there.x);
+        }";
+    let asked = map(&[("position", "here"), ("dpdx", "a"), ("dpdy", "b"), ("pixel", "jitter")]);
+    let error = glsl(text, &asked).unwrap_err();
+    assert!(error.contains("`there` is filled before"), "{error}");
+    let text = text.replace("* there.x", "");
+    let shader = glsl(&text, &asked).unwrap();
+    assert_eq!(threshold(&shader, [0.375, 0.0, 0.0]), 0.375);
+    for (pair, wanted) in [
+        (("place", "here"), "--map place=here: a fragment has position, dpdx, dpdy, pixel"),
+        (
+            ("position", "gone"),
+            "--map position=gone: no `gone` waits for a value; what does is here, a, b, jitter",
+        ),
+        (("lod", "here"), "--map lod=here: `here` is vec3<f32>, which nothing makes out of f32"),
+    ] {
+        let error = glsl(&text, &map(&[pair])).unwrap_err();
+        assert!(error.contains(wanted), "{error}");
+    }
+}
+
+#[test]
+fn a_shader_between_quotes_is_found() {
+    let quoted = |text: &str| {
+        parse("own.js", Language::Quoted, text.as_bytes(), &options(&[])).map_err(|error| error.to_string())
+    };
+    let text = "import { x } from 'three';
+export default /* glsl */ `
+float threshold(vec3 position) {
+    return fract(position.x) + y;
+}
+`;";
+    let error = quoted(text).unwrap_err();
+    assert!(error.starts_with("own.js:4:32: "), "{error}");
+    for text in [
+        &text.replace("+ y", ""),
+        "S = '''\nfn threshold(position: vec3f) -> f32 { return fract(position.x); }\n'''",
+        "#ifndef H\n#define H\nfloat threshold(vec3 position) { return fract(position.x); }\n#endif",
+    ] {
+        let shader = quoted(text).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(threshold(&shader, [0.375, 0.0, 0.0]), 0.375);
+    }
+    for (name, language) in [
+        ("a.glsl.js", Language::Quoted),
+        ("a.h", Language::Quoted),
+        ("a.FSH", Language::Glsl),
+        ("a.inc", Language::Glsl),
+    ] {
+        assert_eq!(Language::of(Path::new(name)), Some(language), "{name}");
+    }
+}
+
+/// The preprocessor of naga loses its way in a comment that a condition leaves out.
+#[test]
+fn a_comment_in_a_skipped_group_is_a_comment() {
+    let text = "/** first
+ * and second */
+float threshold(vec3 position) { /* here */ return fract(position.x); }
+void main() {
+#ifdef A
+/* x */
+#endif
+}
+#ifdef B
+/* it's
+ two */
+// \"
+#endif
+#define C /* goes
+ on */ 1
+const int c = C;";
+    let shader = glsl(text, &options(&[])).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(threshold(&shader, [0.375, 0.0, 0.0]), 0.375);
+}
+
+/// As a compiler writes them with `-g`.
+#[test]
+fn lines_of_a_source_in_spir_v_are_left_out() {
+    let twin = export(Robust::new(Variant::Isotropic), export::Language::SpirV).unwrap().into_bytes();
+    let mut words: Vec<u32> =
+        twin.chunks_exact(4).map(|word| u32::from_le_bytes(word.try_into().unwrap())).collect();
+    // Before every load: OpLine %1 1 1, and OpNoLine.
+    let (mut at, mut loads) = (5, 0);
+    while at < words.len() {
+        if words[at] & 0xffff == 61 {
+            words.splice(at..at, [4 << 16 | 8, 1, 1, 1, 1 << 16 | 317]);
+            (at, loads) = (at + 5, loads + 1);
+        }
+        at += (words[at] >> 16) as usize;
+    }
+    assert!(loads > 0);
+    let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).collect();
+    let read = |bytes: &[u8]| parse("own.spv", Language::SpirV, bytes, &options(&[])).unwrap();
+    let of = |shader: &OwnShader| threshold(shader, [0.3, 0.2, 0.1]).to_bits();
+    assert_eq!(of(&read(&bytes)), of(&read(&twin)));
+}
+
+#[test]
+fn a_shader_of_godot_is_read() {
+    let text = "shader_type spatial;
+render_mode blend_mix, cull_disabled;
+group_uniforms hash.inner;
+uniform float strength : hint_range(0.0, 1.0, 0.1) = 0.5;
+global uniform vec4 tint : source_color;
+instance uniform float offset = 0.25;
+uniform sampler2D albedo : source_color, filter_linear;
+varying vec3 world_position;
+float threshold() { return fract(world_position.x) * strength + offset; }
+void fragment() { ALBEDO = texture(albedo, UV).rgb * tint.rgb; if (ALPHA < threshold()) { discard; } }";
+    let shader = glsl(text, &options(&[])).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(taken(&shader), ["`world_position` is taken for `position`"]);
+    assert_eq!(threshold(&shader, [0.375, 0.0, 0.0]), 0.4375);
+    let shader = glsl(text, &options(&[("strength", "1")])).unwrap();
+    assert_eq!(threshold(&shader, [0.375, 0.0, 0.0]), 0.625);
+    assert_eq!(Language::of(Path::new("a.gdshader")), Some(Language::Glsl));
+}

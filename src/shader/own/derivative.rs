@@ -3,42 +3,54 @@
 
 use super::body::Body;
 use super::error::Fault;
+use super::mapping;
 use super::scan::Token;
 use naga::{
     Arena, Expression, Function, FunctionArgument, FunctionResult, GlobalVariable, Handle, Module, Span,
     Statement, Type, TypeInner, VectorSize,
 };
+use std::collections::{BTreeMap, BTreeSet};
 
-/// The variables that take the place of derivatives: along x, along y, and the sum of both without signs.
-pub(super) const VARIABLES: [&str; 3] = ["screen_dx", "screen_dy", "screen_width"];
+/// The names of the variables that take the place of derivatives: along x, along y, and the sum of both without signs. They are
+/// no longer than `dFdx(p`, and none of the text's own.
+pub(super) type Variables = [String; 3];
 
 /// Declares the variables in GLSL; goes before the text.
-pub(super) const GLSL: &str = "vec3 screen_dx, screen_dy, screen_width;\n";
+pub(super) fn glsl(variables: &Variables) -> String {
+    format!("vec3 {};\n", variables.join(", "))
+}
 
 /// Declares the variables in WGSL; goes behind the text.
-pub(super) const WGSL: &str = "
-var<private> screen_dx: vec3<f32>;
-var<private> screen_dy: vec3<f32>;
-var<private> screen_width: vec3<f32>;
-";
+pub(super) fn wgsl(variables: &Variables) -> String {
+    variables.iter().map(|name| format!("\nvar<private> {name}: vec3<f32>;")).collect::<String>() + "\n"
+}
 
 /// Replaces `dFdx(position)` and its kin in the body of `function` by a variable, byte for byte, so that all else
-/// keeps its place. Returns whether there was any.
+/// keeps its place; `position` is what the text calls it. Returns the variables where there was any.
 ///
 /// All others stay as they are, and are refused where the function comes to them ([`refuse_others`]).
-pub(super) fn replace(text: &mut [u8], tokens: &[Token], function: &str) -> bool {
+pub(super) fn replace(
+    text: &mut [u8],
+    tokens: &[Token],
+    function: &str,
+    position: &str,
+) -> Option<Variables> {
+    // The first ones are for the text itself.
+    let mut spare = spare_names(tokens, text).rev();
+    let variables: Variables = core::array::from_fn(|_| spare.next().unwrap_or_default());
+    let position = position.as_bytes();
     let mut found = false;
     for (index, token) in tokens.iter().enumerate() {
         let word = |at: usize| tokens.get(at).map_or(&b""[..], |token| &text[token.at.clone()]);
         let variable = match word(index) {
-            b"dFdx" | b"dpdx" | b"dFdxFine" | b"dpdxFine" | b"dFdxCoarse" | b"dpdxCoarse" => VARIABLES[0],
-            b"dFdy" | b"dpdy" | b"dFdyFine" | b"dpdyFine" | b"dFdyCoarse" | b"dpdyCoarse" => VARIABLES[1],
-            b"fwidth" | b"fwidthFine" | b"fwidthCoarse" => VARIABLES[2],
+            b"dFdx" | b"dpdx" | b"dFdxFine" | b"dpdxFine" | b"dFdxCoarse" | b"dpdxCoarse" => &variables[0],
+            b"dFdy" | b"dpdy" | b"dFdyFine" | b"dpdyFine" | b"dFdyCoarse" | b"dpdyCoarse" => &variables[1],
+            b"fwidth" | b"fwidthFine" | b"fwidthCoarse" => &variables[2],
             _ => continue,
         };
         let close = match (word(index + 1), word(index + 2), word(index + 3)) {
-            (b"(", b"position", b")") => index + 3,
-            (b"(", b"position", b".") if word(index + 5) == b")" => index + 5,
+            (b"(", argument, b")") if argument == position => index + 3,
+            (b"(", argument, b".") if argument == position && word(index + 5) == b")" => index + 5,
             _ => continue,
         };
         if token.function.is_none_or(|name| word(name) != function.as_bytes()) {
@@ -50,7 +62,36 @@ pub(super) fn replace(text: &mut [u8], tokens: &[Token], function: &str) -> bool
         text[tokens[close].at.clone()].fill(b' ');
         found = true;
     }
-    found
+    found.then_some(variables)
+}
+
+/// Names of two letters that a text does not use.
+pub(super) fn spare_names(tokens: &[Token], text: &[u8]) -> impl DoubleEndedIterator<Item = String> + use<> {
+    let is_short = |token: &&Token| token.at.len() == 2 && text[token.at.start] == b'_';
+    let used: BTreeSet<u8> = tokens.iter().filter(is_short).map(|token| text[token.at.start + 1]).collect();
+    let letters = (b'a'..=b'z').chain(b'A'..=b'Z').filter(move |letter| !used.contains(letter));
+    letters.map(|letter| format!("_{}", char::from(letter)))
+}
+
+/// What a text calls the position: a vector of three among the parameters of `function`, or one that comes from the stage before.
+pub(super) fn position<'t>(
+    text: &'t str,
+    tokens: &[Token],
+    function: &str,
+    said: &'t BTreeMap<String, String>,
+) -> &'t str {
+    let word = |index: usize| tokens.get(index).map_or("", |token| &text[token.at.clone()]);
+    let is_vector = |index: usize| matches!(word(index), "vec3" | "vec3f" | "float3");
+    let name = tokens.iter().find_map(|token| token.function.filter(|&name| word(name) == function));
+    let end = |start: usize| (start..tokens.len()).find(|&at| word(at) == "{").unwrap_or(start);
+    let parameters = name.into_iter().flat_map(|start| start..end(start)).filter(|&at| is_vector(at));
+    // `vec3 p` or `p: vec3<f32>`.
+    let named = |at: usize| if word(at - 1) == ":" { word(at - 2) } else { word(at + 1) };
+    let parameters: Vec<_> = parameters.filter(|&at| at > 1).map(named).collect();
+    let is_input = |at: &usize| tokens[*at].function.is_none() && matches!(word(at - 1), "in" | "varying");
+    let inputs: Vec<_> = (1..tokens.len()).filter(|&at| is_vector(at)).filter(is_input).map(named).collect();
+    let found = mapping::position_among(&parameters, said).or_else(|| mapping::position_among(&inputs, said));
+    found.unwrap_or("position")
 }
 
 /// Refuses the derivatives that are left in a module of nothing but what the function on trial comes to; `its_name` is that
@@ -84,7 +125,7 @@ pub(super) fn refuse_others(module: &Module, its_name: &str, function: &str) -> 
 }
 
 /// Wraps `target` in a function that takes the derivatives as parameters `dpdx` and `dpdy` and fills the variables.
-pub(super) fn wrap(module: &mut Module, target: Handle<Function>) -> Handle<Function> {
+pub(super) fn wrap(module: &mut Module, target: Handle<Function>, variables: &Variables) -> Handle<Function> {
     let vector = module.types.insert(
         Type { name: None, inner: TypeInner::Vector { size: VectorSize::Tri, scalar: naga::Scalar::F32 } },
         Span::UNDEFINED,
@@ -115,7 +156,7 @@ pub(super) fn wrap(module: &mut Module, target: Handle<Function>) -> Handle<Func
         });
         body.emit(Expression::Binary { op: naga::BinaryOperator::Add, left: absolute[0], right: absolute[1] })
     };
-    for (name, value) in VARIABLES.into_iter().zip([arguments[dx], arguments[dy], width]) {
+    for (name, value) in variables.iter().zip([arguments[dx], arguments[dy], width]) {
         if let Some(variable) = find(&module.global_variables, name) {
             let pointer = body.append(Expression::GlobalVariable(variable));
             body.block.push(Statement::Store { pointer, value }, Span::UNDEFINED);

@@ -152,6 +152,21 @@ fn type_of(module: &Module, function: &Function, expression: Handle<Expression>)
     }
 }
 
+/// The functions that a body calls.
+pub(super) fn called_by(block: &Block) -> Vec<Handle<Function>> {
+    block
+        .iter()
+        .flat_map(|statement| match statement {
+            Statement::Call { function, .. } => vec![*function],
+            Statement::Block(inner) => called_by(inner),
+            Statement::If { accept, reject, .. } => [called_by(accept), called_by(reject)].concat(),
+            Statement::Switch { cases, .. } => cases.iter().flat_map(|case| called_by(&case.body)).collect(),
+            Statement::Loop { body, continuing, .. } => [called_by(body), called_by(continuing)].concat(),
+            _ => Vec::new(),
+        })
+        .collect()
+}
+
 /// Finds the first statement that is wanted.
 pub(super) fn find(block: &Block, wanted: &impl Fn(&Statement) -> bool) -> Option<Range<usize>> {
     let place = |span: &Span| span.to_range();

@@ -7,11 +7,19 @@ use std::path::Path;
 pub enum Language {
     /// WGSL: `.wgsl`.
     Wgsl,
-    /// GLSL of any version: `.glsl`, `.frag`, `.vert`, `.comp`, `.fs`, `.vs`.
+    /// GLSL of any version: `.glsl`, `.frag`, `.vert`, `.comp`, `.fs`, `.vs`, `.fsh`, `.vsh`, `.glslh`, `.inc`; Godot's
+    /// `.gdshader` and `.gdshaderinc`.
     Glsl,
+    /// WGSL or GLSL in a string literal of a program: `.js`, `.mjs`, `.ts`, `.tsx`, `.py`, `.h`, `.hpp`, `.cpp`; a file without
+    /// such a literal is GLSL.
+    Quoted,
     /// SPIR-V: `.spv`.
     SpirV,
 }
+
+/// The endings that are known, as a message lists them.
+pub const ENDINGS: &str = ".wgsl, .glsl, .frag, .vert, .comp, .fs, .vs, .fsh, .vsh, .glslh, .inc, .gdshader, .gdshaderinc, .spv, and those of programs that \
+                           hold a shader between quotes, .js, .mjs, .ts, .tsx, .py, .h, .hpp, .cpp";
 
 impl Language {
     /// Returns the language that the ending of a file name stands for.
@@ -19,7 +27,9 @@ impl Language {
     pub fn of(path: &Path) -> Option<Self> {
         match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
             "wgsl" => Some(Self::Wgsl),
-            "glsl" | "frag" | "vert" | "comp" | "fs" | "vs" => Some(Self::Glsl),
+            "glsl" | "frag" | "vert" | "comp" | "fs" | "vs" | "fsh" | "vsh" | "glslh" | "inc"
+            | "gdshader" | "gdshaderinc" => Some(Self::Glsl),
+            "js" | "mjs" | "ts" | "tsx" | "py" | "h" | "hpp" | "cpp" => Some(Self::Quoted),
             "spv" => Some(Self::SpirV),
             _ => None,
         }

@@ -14,9 +14,11 @@ mod glsl;
 mod invalid;
 mod isolated;
 mod language;
+mod mapping;
 mod nesting;
 mod options;
 mod pointers;
+mod quoted;
 mod reduce;
 mod scan;
 mod setting;
@@ -26,7 +28,8 @@ mod wgsl;
 
 pub use error::{Place, ShaderError};
 pub use isolated::READER;
-pub use language::Language;
+pub use language::{ENDINGS, Language};
+pub use mapping::Taken;
 pub use options::Options;
 pub use setting::{Constant, Value};
 pub use signature::{Binding, Input};
@@ -53,6 +56,8 @@ pub struct OwnShader {
     pub function: String,
     /// Its parameters in order.
     pub bindings: Vec<Binding>,
+    /// What was taken for a value of a fragment under another name than ours.
+    pub taken: Vec<Taken>,
     /// Name of the file.
     pub file: String,
     /// The text as it was read; empty for SPIR-V.
@@ -70,9 +75,8 @@ pub struct OwnShader {
 pub fn read(path: &Path, options: &Options) -> Result<OwnShader, ShaderError> {
     let file = path.display().to_string();
     let fail = |message: String| ShaderError { file: file.clone(), place: None, message };
-    let language = Language::of(path).ok_or_else(|| {
-        fail("the ending of the name is none of .wgsl, .glsl, .frag, .vert, .comp, .fs, .vs, .spv".to_owned())
-    })?;
+    let language =
+        Language::of(path).ok_or_else(|| fail(format!("the ending of the name is none of {ENDINGS}")))?;
     let mut bytes = Vec::new();
     // One byte more than is allowed tells a file that is too large, also where it has no length of its own.
     let opened = std::fs::File::open(path).map_err(|error| fail(error.to_string()))?;
@@ -107,13 +111,23 @@ pub fn parse(
                 let decoded = decoded(bytes);
                 text = decoded.0;
                 decoded.1?;
-                wgsl::read(text, &options.function)
+                wgsl::read(text, options)
             }
             Language::Glsl => {
                 let decoded = decoded(bytes);
                 text = decoded.0;
                 decoded.1?;
                 glsl::read(text, options, &mut prelude)
+            }
+            Language::Quoted => {
+                let decoded = decoded(bytes);
+                text = decoded.0;
+                decoded.1?;
+                let uncovered = quoted::uncovered(text, &options.function)?;
+                match quoted::defined(&uncovered, &options.function) {
+                    Some("fn") => wgsl::read(&uncovered, options),
+                    _ => glsl::read(&uncovered, options, &mut prelude),
+                }
             }
             Language::SpirV => {
                 let bytes = bytes.to_vec();
@@ -124,11 +138,12 @@ pub fn parse(
         isolated(move || reduce::reduce(front, &options))
     })();
     match outcome {
-        Ok(reduce::Reduced { module, info, function, bindings }) => Ok(OwnShader {
+        Ok(reduce::Reduced { module, info, function, bindings, taken }) => Ok(OwnShader {
             module,
             info,
             function,
             bindings,
+            taken,
             file: file.to_owned(),
             source: text.to_owned(),
             prelude,

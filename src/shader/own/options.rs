@@ -9,10 +9,13 @@ pub struct Options {
     pub function: String,
     /// Values by name, as written: parameters, uniforms and overrides.
     pub settings: BTreeMap<String, String>,
+    /// What the file calls the values of a fragment, by our names for them, as in `position` and `pos`. The usual names need not be
+    /// given.
+    pub map: BTreeMap<String, String>,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { function: "threshold".to_owned(), settings: BTreeMap::new() }
+        Self { function: "threshold".to_owned(), settings: BTreeMap::new(), map: BTreeMap::new() }
     }
 }

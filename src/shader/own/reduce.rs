@@ -3,6 +3,7 @@
 use super::error::Fault;
 use super::front::Front;
 use super::invalid::{self, validate, validate_plain};
+use super::mapping::{self, Taken};
 use super::options::Options;
 use super::signature::{self, Binding};
 use super::variables::{fill_uniforms, overrides, refuse_resources, refuse_undefined};
@@ -18,6 +19,7 @@ pub(super) struct Reduced {
     pub info: ModuleInfo,
     pub function: String,
     pub bindings: Vec<Binding>,
+    pub taken: Vec<Taken>,
 }
 
 /// The name of the function afterwards; no language renames it.
@@ -30,24 +32,28 @@ const PREFIX: &str = "its_";
 pub(super) fn reduce(front: Front, options: &Options) -> Result<Reduced, Fault> {
     let Front {
         mut module,
-        filled,
-        uniforms,
+        mut filled,
+        mut uniforms,
         defined,
         functions,
         begins_undefined,
-        has_derivatives,
+        derivatives,
         takes_copies,
     } = front;
     let mut settings = options.settings.clone();
     settings.retain(|name, _| !defined.contains(name));
-    let mut target = find(&module, &options.function, &functions)?;
-    let its_name = if has_derivatives { prefixed(Some(options.function.clone())) } else { NAME.to_owned() };
-    if has_derivatives {
-        target = derivative::wrap(&mut module, target);
+    let own = find(&module, &options.function, &functions)?;
+    let mut target = own;
+    if let Some(variables) = &derivatives {
+        target = derivative::wrap(&mut module, target, variables);
     }
     if takes_copies {
         target = pointers::wrap(&mut module, target);
     }
+    let (target, taken) = mapping::map(&mut module, target, &options.map, &settings)?;
+    uniforms.retain(|name| taken.iter().all(|taken| taken.name != *name));
+    filled.retain(|name| taken.iter().all(|taken| taken.name != *name));
+    let its_name = if target == own { NAME.to_owned() } else { prefixed(Some(options.function.clone())) };
     let bindings = signature::bind(&module, target, &options.function, &mut settings)?;
     fill_uniforms(&mut module, &uniforms, &mut settings)?;
     let blocks = blocks::fill(&mut module, &mut settings)?;
@@ -80,11 +86,11 @@ pub(super) fn reduce(front: Front, options: &Options) -> Result<Reduced, Fault> 
     blocks::refuse_unset(&module, &blocks)?;
     refuse_resources(&module, &filled, &uniforms)?;
     if begins_undefined {
-        refuse_undefined(&module, &options.function)?;
+        refuse_undefined(&module, &options.function, derivatives.as_ref())?;
     }
     rename_the_rest(&mut module);
     let info = validate_plain(&module).map_err(in_words)?;
-    Ok(Reduced { module, info, function: NAME.to_owned(), bindings })
+    Ok(Reduced { module, info, function: NAME.to_owned(), bindings, taken })
 }
 
 /// Refuses a fragment that is discarded: what runs here answers with a threshold.

@@ -41,7 +41,7 @@ pub(super) fn tokens(text: &str) -> Result<Vec<Token>, Fault> {
                 if length == rest.len() {
                     return Err(Fault::new("a comment that does not end").at(Some(start..start + 2)));
                 }
-                start += length;
+                start += length + 2;
                 continue;
             }
             byte if byte.is_ascii_whitespace() => {
@@ -131,6 +131,7 @@ mod tests {
         let word = |name: &str| tokens.iter().position(|token| &text[token.at.clone()] == name).unwrap();
         assert_eq!(tokens[word("return")].function, Some(word("a")));
         assert_eq!(tokens[word("d")].function, None);
+        assert!(!tokens.iter().any(|token| matches!(&text[token.at.clone()], "*" | "/")));
         assert!(!tokens.iter().any(|token| matches!(&text[token.at.clone()], "b" | "c")));
     }
 

@@ -2,7 +2,7 @@
 
 use super::error::Fault;
 use super::setting::{Constant, Value, type_name};
-use naga::{Function, Handle, Module, TypeInner};
+use naga::{Function, Handle, Module, Scalar, Type, TypeInner, VectorSize};
 use std::collections::BTreeMap;
 
 /// Where the value of a parameter comes from.
@@ -52,24 +52,53 @@ pub struct Binding {
     pub input: Input,
 }
 
-const FRAGMENT: [(&str, &str, Input); 8] = [
-    ("position", "vec3<f32>", Input::Position),
-    ("dpdx", "vec3<f32>", Input::Dpdx),
-    ("dpdy", "vec3<f32>", Input::Dpdy),
-    ("pixel", "vec2<f32>", Input::Pixel),
-    ("texcoord", "vec2<f32>", Input::Texcoord),
-    ("lod", "f32", Input::Lod),
-    ("frame", "u32", Input::Frame),
-    ("layer", "u32", Input::Layer),
+static FRAGMENT: [(&str, Type, Input); 8] = [
+    ("position", VECTOR, Input::Position),
+    ("dpdx", VECTOR, Input::Dpdx),
+    ("dpdy", VECTOR, Input::Dpdy),
+    ("pixel", PAIR, Input::Pixel),
+    ("texcoord", PAIR, Input::Texcoord),
+    ("lod", scalar(Scalar::F32), Input::Lod),
+    ("frame", scalar(Scalar::U32), Input::Frame),
+    ("layer", scalar(Scalar::U32), Input::Layer),
 ];
+
+const VECTOR: Type = plain(TypeInner::Vector { size: VectorSize::Tri, scalar: Scalar::F32 });
+const PAIR: Type = plain(TypeInner::Vector { size: VectorSize::Bi, scalar: Scalar::F32 });
+
+const fn scalar(scalar: Scalar) -> Type {
+    plain(TypeInner::Scalar(scalar))
+}
+
+const fn plain(inner: TypeInner) -> Type {
+    Type { name: None, inner }
+}
+
+/// The name of the size of the noise, which has a value without being asked.
+const HASH_SCALE: &str = "hash_scale";
+
+/// The names of what a fragment gives, and of the size of the noise.
+pub(super) fn values() -> impl Iterator<Item = &'static str> {
+    FRAGMENT.iter().map(|&(name, ..)| name).chain([HASH_SCALE])
+}
+
+/// The type of one of [`values`].
+pub(super) fn type_of(value: &str) -> Type {
+    let known = FRAGMENT.iter().find(|(name, ..)| *name == value);
+    known.map_or(scalar(Scalar::F32), |(_, ty, _)| ty.clone())
+}
 
 /// Says what a function may look like; the end of many messages.
 pub(super) fn allowed() -> String {
-    let list: Vec<_> = FRAGMENT.iter().map(|(name, wgsl_type, _)| format!("{name}: {wgsl_type}")).collect();
+    let module = Module::default();
+    let list: Vec<_> = FRAGMENT
+        .iter()
+        .map(|(name, ty, _)| format!("{name}: {}", described_inner(&module, &ty.inner)))
+        .collect();
     format!(
-        "it returns f32 (float), and its parameters are any of {}, hash_scale: f32, in any order, and numbers or \
-         vectors of other names whose value is given by --set NAME=VALUE; or it is a hash, from one vec4<u32> (three indices of \
-         a cell and its octave) to u32",
+        "it returns f32 (float), and its parameters are any of {}, hash_scale: f32, in any order and under the usual names or \
+         those that --map position=NAME gives, and numbers or vectors of other names whose value is given by --set NAME=VALUE; or \
+         it is a hash, from one vec4<u32> (three indices of a cell and its octave) to u32",
         list.join(", ")
     )
 }
@@ -103,13 +132,14 @@ pub(super) fn bind(
     for (index, argument) in function.arguments.iter().enumerate() {
         let parameter = argument.name.clone().unwrap_or_else(|| format!("number {}", index + 1));
         let found = described(module, argument.ty);
-        let input = if let Some(&(_, wanted, input)) = FRAGMENT.iter().find(|(name, ..)| *name == parameter) {
+        let input = if let Some((_, ty, input)) = FRAGMENT.iter().find(|(name, ..)| *name == parameter) {
+            let wanted = described_inner(module, &ty.inner);
             if found != wanted {
                 let message =
                     format!("parameter `{parameter}` of `{name}` is {found}, not {wanted}; {}", allowed());
                 return Err(fault(message));
             }
-            input
+            *input
         } else {
             let inner = &module.types[argument.ty].inner;
             let Some(wanted) = Constant::form(inner) else {
@@ -118,10 +148,14 @@ pub(super) fn bind(
             };
             let written = match settings.remove(&parameter) {
                 Some(written) => written,
-                None if parameter == "hash_scale" && found == "f32" => "1".to_owned(),
+                None if parameter == HASH_SCALE && found == "f32" => "1".to_owned(),
                 None => {
+                    let like = FRAGMENT.iter().find(|(_, ty, _)| described_inner(module, &ty.inner) == found);
+                    let map = like.map_or_else(String::new, |(value, ..)| {
+                        format!(", or --map {value}={parameter} where it changes from fragment to fragment")
+                    });
                     let message = format!(
-                        "parameter `{parameter}` of `{name}` has no value: --set {parameter}={wanted}; {}",
+                        "parameter `{parameter}` of `{name}` has no value: --set {parameter}={wanted}{map}; {}",
                         allowed()
                     );
                     return Err(fault(message));
@@ -135,7 +169,7 @@ pub(super) fn bind(
 }
 
 /// The name of a type in messages.
-pub(super) fn described(module: &Module, ty: Handle<naga::Type>) -> String {
+pub(super) fn described(module: &Module, ty: Handle<Type>) -> String {
     module.types[ty].name.clone().unwrap_or_else(|| described_inner(module, &module.types[ty].inner))
 }
 

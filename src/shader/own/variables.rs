@@ -1,6 +1,6 @@
 //! Variables of a module and where their values come from: a user's setting, the text, or nowhere.
 
-use super::derivative;
+use super::derivative::Variables;
 use super::error::Fault;
 use super::setting::{Constant, Value};
 use super::signature;
@@ -100,12 +100,16 @@ pub(super) fn refuse_resources(
 }
 
 /// Refuses variables that are read and never written.
-pub(super) fn refuse_undefined(module: &Module, function: &str) -> Result<(), Fault> {
+pub(super) fn refuse_undefined(
+    module: &Module,
+    function: &str,
+    derivatives: Option<&Variables>,
+) -> Result<(), Fault> {
     let written: BTreeSet<_> =
         module.functions.iter().flat_map(|(_, function)| written_by(function)).collect();
     for (handle, variable) in module.global_variables.iter() {
         let name = variable.name.as_deref().unwrap_or("a variable");
-        let is_ours = derivative::VARIABLES.contains(&name);
+        let is_ours = derivatives.is_some_and(|ours| ours.iter().any(|our| our == name));
         if variable.init.is_none() && !written.contains(&handle) && !is_ours {
             let message = format!(
                 "`{name}` has no value: nothing that `{function}` comes to writes it; make it a parameter, a constant, or \
@@ -118,7 +122,7 @@ pub(super) fn refuse_undefined(module: &Module, function: &str) -> Result<(), Fa
 }
 
 /// The variables that a function writes, or hands on by their place.
-fn written_by(function: &Function) -> Vec<Handle<GlobalVariable>> {
+pub(super) fn written_by(function: &Function) -> Vec<Handle<GlobalVariable>> {
     let mut places = Vec::new();
     let mut blocks = vec![&function.body];
     while let Some(block) = blocks.pop() {

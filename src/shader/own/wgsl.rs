@@ -6,15 +6,16 @@ use super::front::Front;
 use super::invalid::{joined, validate};
 use super::isolated::isolated;
 use super::nesting::Nesting;
+use super::options::Options;
 use super::scan::{Token, end_of_file, tokens};
 use naga::front::wgsl::ParseError;
 
-/// Reads and validates a text; the derivatives of the position in the body of `function` become variables.
+/// Reads and validates a text; the derivatives of the position in the body of the function become variables.
 ///
 /// # Errors
 ///
 /// Text that is no WGSL or not valid.
-pub(super) fn read(text: &str, function: &str) -> Result<Front, Fault> {
+pub(super) fn read(text: &str, asked: &Options) -> Result<Front, Fault> {
     let tokens = tokens(text)?;
     let mut nesting = Nesting::of_functions();
     for Token { at, .. } in &tokens {
@@ -22,17 +23,18 @@ pub(super) fn read(text: &str, function: &str) -> Result<Front, Fault> {
     }
     let mut bytes = text.as_bytes().to_vec();
     blank_imports(&mut bytes, &tokens)?;
-    let has_derivatives = derivative::replace(&mut bytes, &tokens, function);
+    let position = derivative::position(text, &tokens, &asked.function, &asked.map);
+    let derivatives = derivative::replace(&mut bytes, &tokens, &asked.function, position);
     // Only ASCII was replaced, by ASCII.
     let mut prepared = String::from_utf8_lossy(&bytes).into_owned();
-    if has_derivatives {
-        prepared.push_str(derivative::WGSL);
+    if let Some(variables) = &derivatives {
+        prepared.push_str(&derivative::wgsl(variables));
     }
     let length = text.trim_end().len();
     let read = isolated(move || {
         let module = naga::front::wgsl::parse_str(&prepared).map_err(|error| said(&error, &prepared))?;
         validate(&module)?;
-        Ok(Front::plain(module, has_derivatives))
+        Ok(Front::plain(module, derivatives))
     });
     read.map_err(|fault| match &fault.at {
         Some(at) if at.start >= length => end_of_file(text, &tokens).unwrap_or(fault),

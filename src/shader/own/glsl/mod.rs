@@ -23,7 +23,7 @@ pub(super) fn read(text: &str, asked: &Options, prelude: &mut usize) -> Result<F
     let tokens = tokens(text)?;
     let directives = directives::directives(text, &tokens);
     let functions = directives::functions(text, &tokens, &directives)?;
-    let prepared = prepare::prepare(text, &tokens, &directives, &asked.function, &asked.settings)?;
+    let prepared = prepare::prepare(text, &tokens, &directives, asked)?;
     *prelude = prepared.prelude;
     let (before, length) = (prepared.prelude, text.trim_end().len());
     // What messages quote: the user's own words, at the places that naga names.
@@ -53,7 +53,7 @@ pub(super) fn read(text: &str, asked: &Options, prelude: &mut usize) -> Result<F
             defined: prepared.defined,
             functions,
             begins_undefined: true,
-            has_derivatives: prepared.has_derivatives,
+            derivatives: prepared.derivatives,
             takes_copies: false,
         })
     });

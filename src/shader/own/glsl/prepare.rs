@@ -9,6 +9,7 @@
 //! * `const` in front of a parameter;
 //! * a name `in`, which the paper's own listings use, becomes another one;
 //! * `varying` and `attribute`, older words for `in`;
+//! * `shader_type`, `render_mode` and the hints of uniforms, as Godot writes them;
 //! * declarations of textures;
 //! * `uniform` in front of a plain value, which then waits for one (`--set`);
 //! * `uniform` and `buffer` in front of a block without a binding: a macro that gives it one;
@@ -17,12 +18,12 @@
 //!
 //! A `main` is appended.
 
-use super::super::derivative;
+use super::super::derivative::{self, Variables};
 use super::super::error::Fault;
+use super::super::options::Options;
 use super::super::scan::Token;
 use super::directives::{Directive, in_directives, is_asked_for};
 use super::{macros, reach};
-use std::collections::BTreeMap;
 
 /// Text that naga reads, and what was taken out of it.
 pub(super) struct Prepared {
@@ -35,14 +36,15 @@ pub(super) struct Prepared {
     pub initialised: Vec<String>,
     /// Names of textures, which are not there.
     pub textures: Vec<String>,
-    pub has_derivatives: bool,
+    /// The variables that took the place of derivatives.
+    pub derivatives: Option<Variables>,
     /// Macros that are defined before the text.
     pub defines: Vec<(String, String)>,
     /// Names of those that are the user's.
     pub defined: Vec<String>,
 }
 
-/// Prepares a text whose function to be called is `function`.
+/// Prepares a text for what is asked of it.
 ///
 /// # Errors
 ///
@@ -51,20 +53,20 @@ pub(super) fn prepare(
     text: &str,
     tokens: &[Token],
     directives: &[Directive<'_>],
-    function: &str,
-    settings: &BTreeMap<String, String>,
+    asked: &Options,
 ) -> Result<Prepared, Fault> {
     let mut bytes = text.as_bytes().to_vec();
+    blank_comments(&mut bytes, tokens, directives);
     let is_es = blank_directives(&mut bytes, directives);
     let mut defines = Vec::new();
     if is_es {
         defines.push(("GL_ES".to_owned(), "1".to_owned()));
     }
-    let settings = settings.iter().filter(|(name, _)| is_asked_for(directives, name));
+    let settings = asked.settings.iter().filter(|(name, _)| is_asked_for(directives, name));
     defines.extend(settings.map(|(name, value)| (name.clone(), value.clone())));
     let defined = defines.iter().map(|(name, _)| name.clone()).collect();
     mark_strange_characters(&mut bytes, tokens);
-    let mut spare = spare_names(tokens, text);
+    let mut spare = derivative::spare_names(tokens, text.as_bytes());
     let [block, buffer, parameter] =
         [spare.next(), spare.next(), spare.next()].map(|name| name.unwrap_or_else(|| "zz".to_owned()));
     for (name, keyword) in [(&block, "uniform"), (&buffer, "buffer")] {
@@ -85,6 +87,13 @@ pub(super) fn prepare(
             "highp" | "mediump" | "lowp" => blank(&tokens[index..=index]),
             "const" if token.parentheses > 0 => blank(&tokens[index..=index]),
             "in" if !is_name(index + 1) => bytes[token.at.clone()].copy_from_slice(parameter.as_bytes()),
+            "shader_type" | "render_mode" | "stencil_mode" | "group_uniforms" if is_outside => {
+                let end = (index..tokens.len()).find(|&at| word(at) == ";").unwrap_or(index);
+                blank(&tokens[index..=end]);
+            }
+            "global" | "instance" if is_outside && word(index + 1) == "uniform" => {
+                blank(&tokens[index..=index])
+            }
             "varying" | "attribute" if is_outside => {
                 blank(&tokens[index..=index]);
                 bytes[token.at.start..token.at.start + 2].copy_from_slice(b"in");
@@ -102,6 +111,13 @@ pub(super) fn prepare(
                 } else if is_name(value_type + 1) {
                     uniform_end =
                         (index..tokens.len()).find(|&at| word(at) == ";").unwrap_or(tokens.len() - 1);
+                    // Behind a colon an editor is told how the value may be chosen.
+                    if word(value_type + 2) == ":" {
+                        let is_end =
+                            |&at: &usize| matches!(word(at), "=" | ";") && tokens[at].parentheses == 0;
+                        let end = (value_type + 2..tokens.len()).find(is_end).unwrap_or(tokens.len());
+                        blank(&tokens[value_type + 2..end]);
+                    }
                     let is_texture =
                         word(value_type).contains("sampler") || word(value_type).contains("image");
                     // Textures with a sampler in them are not read at all; the function cannot use them anyway.
@@ -128,23 +144,15 @@ pub(super) fn prepare(
             declaration = index + 1;
         }
     }
-    reach::blank_others(&mut bytes, text, tokens, directives, function);
+    reach::blank_others(&mut bytes, text, tokens, directives, &asked.function);
     macros::measure(text, tokens, directives, |token| bytes[token.at.start] != b' ')?;
-    let has_derivatives = derivative::replace(&mut bytes, tokens, function);
-    let prelude = if has_derivatives { derivative::GLSL } else { "" };
+    let position = derivative::position(text, tokens, &asked.function, &asked.map);
+    let derivatives = derivative::replace(&mut bytes, tokens, &asked.function, position);
+    let prelude = derivatives.as_ref().map_or_else(String::new, derivative::glsl);
     // Nothing but whole characters was replaced, by ASCII.
     let prepared = format!("{prelude}{}\nvoid main() {{}}\n", String::from_utf8_lossy(&bytes));
     let prelude = prelude.len();
-    Ok(Prepared {
-        text: prepared,
-        prelude,
-        uniforms,
-        initialised,
-        textures,
-        has_derivatives,
-        defines,
-        defined,
-    })
+    Ok(Prepared { text: prepared, prelude, uniforms, initialised, textures, derivatives, defines, defined })
 }
 
 /// Puts `#` in the place of characters that no GLSL has outside of comments: the preprocessor refuses one within a line,
@@ -153,6 +161,21 @@ fn mark_strange_characters(bytes: &mut [u8], tokens: &[Token]) {
     let is_strange = |byte: u8| !byte.is_ascii() || byte.is_ascii_control() || b"@$`'\"".contains(&byte);
     for token in tokens {
         bytes[token.at.clone()].iter_mut().filter(|byte| is_strange(**byte)).for_each(|byte| *byte = b'#');
+    }
+}
+
+/// Blanks comments: the preprocessor loses its count of lines of them where a condition leaves them out. One that goes on behind
+/// the line of a directive stays, since it continues it.
+fn blank_comments(bytes: &mut [u8], tokens: &[Token], directives: &[Directive<'_>]) {
+    let starts = core::iter::once(0).chain(tokens.iter().map(|token| token.at.end));
+    let ends = tokens.iter().map(|token| token.at.start).chain([bytes.len()]);
+    for (start, end) in starts.zip(ends) {
+        let last = directives[..directives.partition_point(|directive| directive.at.start <= start)].last();
+        let goes_on = last.is_some_and(|directive| start < directive.at.end && end > directive.at.end);
+        let gap = &mut bytes[start..end];
+        if !(goes_on && gap.trim_ascii_start().starts_with(b"/*")) {
+            gap.iter_mut().filter(|byte| !byte.is_ascii_whitespace()).for_each(|byte| *byte = b' ');
+        }
     }
 }
 
@@ -169,10 +192,4 @@ fn blank_directives(bytes: &mut [u8], directives: &[Directive<'_>]) -> bool {
         }
     }
     is_es
-}
-
-/// Names of two letters that the text does not use.
-fn spare_names(tokens: &[Token], text: &str) -> impl Iterator<Item = String> {
-    let is_used = move |name: &String| tokens.iter().any(|token| text[token.at.clone()] == **name);
-    (b'a'..=b'z').map(|letter| format!("_{}", char::from(letter))).filter(move |name| !is_used(name))
 }

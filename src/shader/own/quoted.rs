@@ -1,0 +1,201 @@
+//! Shaders in the texts of other programs: between the backticks of JavaScript and TypeScript, the quotes of Python, the raw
+//! strings of C++.
+
+use super::error::Fault;
+use super::scan::tokens;
+use core::ops::Range;
+
+/// A string literal of a program.
+struct Literal {
+    /// What stands between the quotes.
+    at: Range<usize>,
+    /// Whether it ends with its line; a shader is then made of many.
+    is_line: bool,
+}
+
+/// Blanks all but the string literal, or the literals that follow each other, in which `function` is defined; nothing moves. Where
+/// the text defines it outside of all literals, it is a shader as it stands: headers of shaders have the endings of C.
+///
+/// # Errors
+///
+/// No literal that defines it, and several.
+pub(super) fn uncovered(text: &str, function: &str) -> Result<String, Fault> {
+    let literals = literals(text);
+    let defines = |literal: &&Literal| defined(&text[literal.at.clone()], function).is_some();
+    let mut found = literals.iter().enumerate().filter(|(_, literal)| defines(literal));
+    let Some((index, first)) = found.next() else {
+        if defined(text, function).is_some() {
+            return Ok(text.to_owned());
+        }
+        let parts = literals.iter().map(|literal| &text[literal.at.clone()]);
+        let mut names: Vec<_> = parts.flat_map(functions).collect();
+        names.dedup();
+        let known = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
+        return Err(Fault::new(format!(
+            "no text between quotes defines a function `{function}`; --function NAME takes one of another name; functions \
+             between quotes are {known}"
+        )));
+    };
+    let mut parts = vec![index];
+    if first.is_line {
+        let is_next = |a: usize, b: usize| {
+            let between = &text[literals[a].at.end + 1..literals[b].at.start - 1];
+            literals[b].is_line
+                && between.bytes().all(|byte| byte.is_ascii_whitespace() || b",+\\".contains(&byte))
+        };
+        parts.extend((index + 1..literals.len()).take_while(|&next| is_next(next - 1, next)));
+        let before = (0..index).rev().take_while(|&last| is_next(last, last + 1));
+        parts.extend(before.collect::<Vec<_>>());
+    }
+    if let Some((_, second)) = found.find(|(index, _)| !parts.contains(index)) {
+        let message =
+            format!("`{function}` is defined in several string literals of the file; this is the second");
+        return Err(Fault::new(message).at(Some(second.at.start..second.at.start + 1)));
+    }
+    let mut bytes = text.as_bytes().to_vec();
+    let mut kept = vec![false; bytes.len()];
+    for part in parts {
+        let Literal { at, is_line } = &literals[part];
+        kept[at.clone()].fill(true);
+        for hidden in if *is_line { escapes(text, at) } else { holes(text, at) } {
+            kept[hidden].fill(false);
+        }
+    }
+    let goes = |(byte, kept): &(&mut u8, bool)| !kept && **byte != b'\n';
+    bytes.iter_mut().zip(kept).filter(goes).for_each(|(byte, _)| *byte = b' ');
+    Ok(String::from_utf8_lossy(&bytes).into_owned())
+}
+
+/// Returns the word in front of the name where a text defines a function: `fn` in WGSL, a type in the others.
+pub(super) fn defined<'t>(text: &'t str, function: &str) -> Option<&'t str> {
+    let is_word = |c: char| c.is_alphanumeric() || c == '_';
+    text.match_indices(function).find_map(|(start, _)| {
+        let (before, behind) = (&text[..start], &text[start + function.len()..]);
+        let apart = before.trim_end();
+        let is_call = behind.trim_start().starts_with('(');
+        let type_start = apart.rfind(|c| !is_word(c)).map_or(0, |at| at + 1);
+        let word = &apart[type_start..];
+        let is_definition =
+            apart.len() < before.len() && !word.is_empty() && word != "return" && word != "else";
+        (is_call && is_definition).then_some(word)
+    })
+}
+
+/// The names of the functions that a text defines.
+fn functions(text: &str) -> Vec<String> {
+    let Ok(tokens) = tokens(text) else { return Vec::new() };
+    let mut names: Vec<_> = tokens.iter().filter_map(|token| token.function).collect();
+    names.dedup();
+    names.into_iter().map(|name| text[tokens[name].at.clone()].to_owned()).collect()
+}
+
+/// Finds the string literals of a program; comments are left out.
+fn literals(text: &str) -> Vec<Literal> {
+    let mut found = Vec::new();
+    let mut start = 0;
+    while start < text.len() {
+        let rest = &text[start..];
+        let until = |from: usize, end: &str| rest[from..].find(end).map_or(rest.len(), |at| from + at);
+        if rest.starts_with("//") {
+            start += until(2, "\n");
+        } else if rest.starts_with("/*") {
+            start += (until(2, "*/") + 2).min(rest.len());
+        } else if let Some(quotes) = ["\"\"\"", "'''"].into_iter().find(|quotes| rest.starts_with(quotes)) {
+            let end = until(3, quotes);
+            found.push(Literal { at: start + 3..start + end, is_line: false });
+            start += (end + 3).min(rest.len());
+        } else if let Some((open, close)) = raw(rest) {
+            let end = until(open, &close);
+            found.push(Literal { at: start + open..start + end, is_line: false });
+            start += (end + close.len()).min(rest.len());
+        } else if let Some(quote) = rest.bytes().next().filter(|byte| b"`\"'".contains(byte)) {
+            let is_line = quote != b'`';
+            let mut is_escaped = false;
+            let ends = |byte: u8| {
+                let ends = !is_escaped && (byte == quote || is_line && byte == b'\n');
+                is_escaped = byte == b'\\' && !is_escaped;
+                ends
+            };
+            let end = rest.bytes().skip(1).position(ends).map_or(rest.len(), |at| at + 1);
+            if rest.as_bytes().get(end) == Some(&quote) {
+                found.push(Literal { at: start + 1..start + end, is_line });
+            }
+            start += (end + 1).min(rest.len());
+        } else {
+            start += rest.chars().next().map_or(1, char::len_utf8);
+        }
+    }
+    found
+}
+
+/// The length of the beginning of a raw string of C++, `R"name(`, and its end.
+fn raw(text: &str) -> Option<(usize, String)> {
+    let name = text.strip_prefix("R\"")?.split_once('(')?.0;
+    let is_name = name.len() <= 16 && !name.contains(|c: char| c.is_whitespace() || c == '"' || c == ')');
+    is_name.then(|| (name.len() + 3, format!("){name}\"")))
+}
+
+/// The escapes of newlines and tabs in a literal of one line.
+fn escapes(text: &str, at: &Range<usize>) -> Vec<Range<usize>> {
+    let escapes = ["\\n", "\\t", "\\r"].into_iter().flat_map(|escape| text[at.clone()].match_indices(escape));
+    escapes.map(|(start, escape)| at.start + start..at.start + start + escape.len()).collect()
+}
+
+/// The `${...}` of a template, whose values only the program knows.
+fn holes(text: &str, at: &Range<usize>) -> Vec<Range<usize>> {
+    let within = &text[at.clone()];
+    let holes = within.match_indices("${").filter_map(|(start, _)| {
+        let length = within[start..].find('}')?;
+        Some(at.start + start..at.start + start + length + 1)
+    });
+    holes.collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn left(text: &str) -> String {
+        let uncovered = uncovered(text, "f").unwrap();
+        assert_eq!(uncovered.len(), text.len());
+        assert_eq!(uncovered.matches('\n').count(), text.matches('\n').count());
+        uncovered.trim().to_owned()
+    }
+
+    #[test]
+    fn the_literal_that_defines_the_function_is_left() {
+        for text in [
+            "// don't\nexport default /* glsl */ `\nfloat f(vec3 p) { return 1.0; }\n`; const b = 'x';",
+            "# a f(b)\nSHADER = r\"\"\"\nfloat f(vec3 p) { return 1.0; }\n\"\"\"\nOTHER = 'c'",
+            "const char* x = R\"glsl(\nfloat f(vec3 p) { return 1.0; }\n)glsl\"; char y = 'z';",
+        ] {
+            assert_eq!(left(text), "float f(vec3 p) { return 1.0; }", "{text}");
+        }
+        let lines = "x = [\n\"float f(vec3 p) {\\n\",\n  'return 1.0;',\n \"}\"\n].join(); g = \"other\";";
+        let words: Vec<_> = left(lines).split_whitespace().map(str::to_owned).collect();
+        assert_eq!(words.join(" "), "float f(vec3 p) { return 1.0; }");
+        assert_eq!(
+            left("x(`float a = ${b};\nfloat f() { return a; }`)"),
+            "float a =     ;\nfloat f() { return a; }"
+        );
+    }
+
+    #[test]
+    fn a_text_without_such_a_literal_stays() {
+        let text = "#define A \"b\"\nfloat f(vec3 p) { return 1.0; }";
+        assert_eq!(left(text), text);
+        assert!(uncovered("`float f() {}` + `float f() {}`", "f").is_err());
+        let error =
+            uncovered("a = `float g(vec3 p) { return h(p); } float h() { return 1.0; }`;", "f").unwrap_err();
+        assert!(error.message.ends_with("functions between quotes are g, h"), "{}", error.message);
+        assert_eq!(defined("return f(1.0); fn f(p: vec3f)", "f"), Some("fn"));
+        assert_eq!(defined("return f(1.0) + of(2.0)", "f"), None);
+    }
+
+    #[test]
+    fn unfinished_literals_end_with_the_text() {
+        for text in ["`", "\"", "'a\nb", "R\"(", "\"\"\"a", "/*", "//", "R\"", "`\\", "é`é", ""] {
+            assert!(uncovered(text, "f").is_err(), "{text}");
+        }
+    }
+}
