@@ -12,6 +12,7 @@ use hashed_alpha::threshold::two_scale::Variant;
 use proptest::prelude::*;
 use std::path::{Path, PathBuf};
 
+mod derivatives;
 mod hostile;
 mod refused;
 mod taken;

@@ -49,12 +49,7 @@ fn what_is_refused_is_named_with_its_place() {
         ),
         (
             "fn threshold(texcoord: vec2<f32>) -> f32 { return dpdx(texcoord.x); }",
-            "own.wgsl:1:51: only the derivatives",
-        ),
-        (
-            "fn other(position: vec3<f32>) -> f32 { return dpdx(position).x; }
-             fn threshold(position: vec3<f32>) -> f32 { return other(position * 2.0); }",
-            "own.wgsl:1:47: a derivative is known in the body of `threshold` only",
+            "own.wgsl:1:51: a derivative, and `threshold` takes `texcoord`, whose derivatives are not known",
         ),
     ] {
         let error = wgsl(text, &none).expect_err(text);
@@ -112,10 +107,6 @@ fn what_is_refused_is_named_with_its_place() {
             "float threshold(float a) { return a; } float threshold(vec3 position) { return 1.0; }",
             "several functions",
         ),
-        (
-            "float threshold() { return dFdx(gl_FragCoord.x); }",
-            "own.glsl:1:45: only the derivatives of `position`",
-        ),
     ] {
         let error = glsl(text, &none).expect_err(text);
         wrong.extend((!error.contains(wanted)).then(|| format!("{error}, not {wanted}")));
@@ -146,7 +137,14 @@ fn text_comes_as_editors_save_it() {
     let wgsl_text = "\u{feff}fn threshold() -> f32 { return foo; }";
     assert!(wgsl(wgsl_text, &options(&[])).unwrap_err().starts_with("own.wgsl:1:32: "));
     for (text, wanted) in [
-        ("#include <common>\nfloat threshold() { return 1.0; }", "own.glsl:1:1: files are not included"),
+        (
+            "#include <common>\nfloat threshold() { return rand(1.0); }",
+            "own.glsl:2:28: Unknown function 'rand'; files are not included, and `#include <common>` may have it",
+        ),
+        (
+            "#include <a>\nfloat threshold() { return PI; }",
+            "own.glsl:2:28: `PI` has no value: it is declared nowhere",
+        ),
         ("float threshold() { return 1.0; }\n/* open", "own.glsl:2:1: a comment that does not end"),
         ("float threshold() { return \u{0}1.0; }", "own.glsl:1:28: \"\\0\" is no character of GLSL"),
         ("float threshold() { return größe; }", "own.glsl:1:30: \"ö\" is no character of GLSL"),
@@ -155,6 +153,9 @@ fn text_comes_as_editors_save_it() {
         let error = glsl(text, &options(&[])).unwrap_err();
         assert!(error.starts_with(wanted), "{error}, not {wanted}");
     }
+    let main = Options { function: "main".to_owned(), ..Options::default() };
+    let error = glsl("void main() {}", &main).unwrap_err();
+    assert!(error.starts_with("own.glsl: `main` returns nothing that could be tried"), "{error}");
     let numbered = "@id(3) override foo: f32;\nfn threshold() -> f32 { return foo; }";
     assert!(
         wgsl(numbered, &options(&[])).unwrap_err().contains("override `foo` has no value: --set foo=VALUE")
@@ -278,6 +279,7 @@ float third() { return 1.0; }";
     let error = wgsl("fn a(p: vec3<f32>) -> f32 { return dpdx(p.x); }", &mine).unwrap_err();
     assert!(error.contains("functions are a;"), "{error}");
     // Behind its condition it is read, and what it comes to counts.
-    let error = glsl(text, &options(&[("USE_ALPHAHASH", "1")])).unwrap_err();
-    assert!(error.contains("own.glsl:2:") && error.contains("in the body of `threshold` only"), "{error}");
+    let text = text.replace("p.xy", "q.xy");
+    let error = glsl(&text, &options(&[("USE_ALPHAHASH", "1")])).unwrap_err();
+    assert!(error.contains("own.glsl:2:") && error.contains("`q` has no value"), "{error}");
 }

@@ -115,9 +115,10 @@ fn is_handed_on(function: &Function, structure: Handle<Expression>) -> bool {
         || find(&function.body, &takes_it).is_some()
 }
 
-/// The name of a uniform block, that of its type where the variable has none, and its members.
+/// The name of a uniform block or of push constants, that of its type where the variable has none, and its members.
 fn block<'m>(module: &'m Module, variable: &GlobalVariable) -> Option<(String, &'m [StructMember])> {
-    structure(module, variable).filter(|_| variable.space == AddressSpace::Uniform)
+    let is_uniform = matches!(variable.space, AddressSpace::Uniform | AddressSpace::Immediate);
+    structure(module, variable).filter(|_| is_uniform)
 }
 
 fn structure<'m>(module: &'m Module, variable: &GlobalVariable) -> Option<(String, &'m [StructMember])> {

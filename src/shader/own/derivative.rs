@@ -1,5 +1,5 @@
 //! Screen derivatives of the position, taken by name: there is no neighbouring pixel here, but each fragment brings
-//! them along.
+//! them along. This is the short way, which costs nothing; [`quads`](super::quads) takes those of anything else.
 
 use super::body::Body;
 use super::error::Fault;
@@ -28,7 +28,7 @@ pub(super) fn wgsl(variables: &Variables) -> String {
 /// Replaces `dFdx(position)` and its kin in the body of `function` by a variable, byte for byte, so that all else
 /// keeps its place; `position` is what the text calls it. Returns the variables where there was any.
 ///
-/// All others stay as they are, and are refused where the function comes to them ([`refuse_others`]).
+/// All others stay as they are, and so does each one of a position that the function changes.
 pub(super) fn replace(
     text: &mut [u8],
     tokens: &[Token],
@@ -39,6 +39,9 @@ pub(super) fn replace(
     let mut spare = spare_names(tokens, text).rev();
     let variables: Variables = core::array::from_fn(|_| spare.next().unwrap_or_default());
     let position = position.as_bytes();
+    if is_changed(text, tokens, function, position) {
+        return None;
+    }
     let mut found = false;
     for (index, token) in tokens.iter().enumerate() {
         let word = |at: usize| tokens.get(at).map_or(&b""[..], |token| &text[token.at.clone()]);
@@ -63,6 +66,26 @@ pub(super) fn replace(
         found = true;
     }
     found.then_some(variables)
+}
+
+/// Whether the body of a function may give a name another value, itself or by `inout`: then its derivative is another, too.
+fn is_changed(text: &[u8], tokens: &[Token], function: &str, name: &[u8]) -> bool {
+    let word = |at: usize| tokens.get(at).map_or(&b""[..], |token| &text[token.at.clone()]);
+    let is_within = |token: &Token| {
+        token.function.is_some_and(|function_name| word(function_name) == function.as_bytes())
+    };
+    let hands_out = tokens.iter().any(|token| matches!(&text[token.at.clone()], b"inout" | b"out"));
+    tokens.iter().enumerate().filter(|(_, token)| is_within(token)).any(|(at, token)| {
+        let behind = if word(at + 1) == b"." { at + 3 } else { at + 1 };
+        let is_operator = matches!(word(behind), b"+" | b"-" | b"*" | b"/");
+        let assigned = match (word(behind), word(behind + 1)) {
+            (b"=", next) => next != b"=",
+            (b"[", _) => true,
+            (sign, next) => is_operator && (next == b"=" || (sign == next && matches!(sign, b"+" | b"-"))),
+        };
+        let stands_alone = matches!(word(behind), b"," | b")") && token.parentheses > 0;
+        text[token.at.clone()] == *name && (assigned || hands_out && stands_alone)
+    })
 }
 
 /// Names of two letters that a text does not use.
@@ -94,8 +117,8 @@ pub(super) fn position<'t>(
     found.unwrap_or("position")
 }
 
-/// Refuses the derivatives that are left in a module of nothing but what the function on trial comes to; `its_name` is that
-/// of the function in the module, `function` what the user calls it.
+/// Refuses the derivatives that are left in a module of nothing but what the function on trial comes to, beside something that
+/// [`quads`](super::quads) does not know; `its_name` is that of the function in the module, `function` what the user calls it.
 ///
 /// # Errors
 ///

@@ -227,7 +227,7 @@ fn items(module: &Module, target: Handle<Function>, settings: &BTreeMap<String, 
 }
 
 /// A function and all that it calls.
-fn reached_from(module: &Module, target: Handle<Function>) -> BTreeSet<Handle<Function>> {
+pub(super) fn reached_from(module: &Module, target: Handle<Function>) -> BTreeSet<Handle<Function>> {
     let (mut open, mut reached) = (vec![target], BTreeSet::new());
     while let Some(function) = open.pop() {
         if reached.insert(function) {

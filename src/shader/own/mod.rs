@@ -18,6 +18,7 @@ mod mapping;
 mod nesting;
 mod options;
 mod pointers;
+mod quads;
 mod quoted;
 mod reduce;
 mod scan;

@@ -7,7 +7,7 @@ use super::mapping::{self, Taken};
 use super::options::Options;
 use super::signature::{self, Binding};
 use super::variables::{fill_uniforms, overrides, refuse_resources, refuse_undefined};
-use super::{blocks, derivative, pointers};
+use super::{blocks, derivative, pointers, quads};
 use naga::back::pipeline_constants::{PipelineConstantError, process_overrides};
 use naga::valid::ModuleInfo;
 use naga::{Block, EntryPoint, Expression, Function, Handle, Module, ShaderStage, Span, Statement};
@@ -53,6 +53,7 @@ pub(super) fn reduce(front: Front, options: &Options) -> Result<Reduced, Fault> 
     let (target, taken) = mapping::map(&mut module, target, &options.map, &settings)?;
     uniforms.retain(|name| taken.iter().all(|taken| taken.name != *name));
     filled.retain(|name| taken.iter().all(|taken| taken.name != *name));
+    let target = quads::wrap(&mut module, target, &options.function)?;
     let its_name = if target == own { NAME.to_owned() } else { prefixed(Some(options.function.clone())) };
     let bindings = signature::bind(&module, target, &options.function, &mut settings)?;
     fill_uniforms(&mut module, &uniforms, &mut settings)?;

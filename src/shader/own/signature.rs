@@ -150,7 +150,11 @@ pub(super) fn bind(
                 Some(written) => written,
                 None if parameter == HASH_SCALE && found == "f32" => "1".to_owned(),
                 None => {
-                    let like = FRAGMENT.iter().find(|(_, ty, _)| described_inner(module, &ty.inner) == found);
+                    let is_like = |ty: &Type| {
+                        matches!(ty.inner, TypeInner::Vector { .. })
+                            && described_inner(module, &ty.inner) == found
+                    };
+                    let like = FRAGMENT.iter().find(|(_, ty, _)| is_like(ty));
                     let map = like.map_or_else(String::new, |(value, ..)| {
                         format!(", or --map {value}={parameter} where it changes from fragment to fragment")
                     });

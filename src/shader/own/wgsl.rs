@@ -75,8 +75,16 @@ fn blank_imports(bytes: &mut [u8], tokens: &[Token]) -> Result<(), Fault> {
         let mut end = line.map_or(bytes.len(), |length| token.at.start + length);
         if bytes[token.at.start..end].contains(&b'{') {
             // A list may go over several lines.
-            let close = bytes[token.at.start..].iter().position(|&byte| byte == b'}');
-            end = end.max(close.map_or(bytes.len(), |length| token.at.start + length + 1));
+            let mut open = 0_i32;
+            let close = tokens[index..].iter().find(|token| {
+                open += match bytes[token.at.start] {
+                    b'{' => 1,
+                    b'}' => -1,
+                    _ => 0,
+                };
+                open == 0 && bytes[token.at.start] == b'}'
+            });
+            end = end.max(close.map_or(bytes.len(), |close| close.at.end));
         }
         bytes[token.at.start..end]
             .iter_mut()

@@ -20,6 +20,11 @@ use naga::front::glsl::Frontend;
 ///
 /// Text that is no GLSL or not valid.
 pub(super) fn read(text: &str, asked: &Options, prelude: &mut usize) -> Result<Front, Fault> {
+    if asked.function == "main" {
+        let message =
+            "`main` returns nothing that could be tried: name a function that returns the threshold";
+        return Err(Fault::new(message));
+    }
     let tokens = tokens(text)?;
     let directives = directives::directives(text, &tokens);
     let functions = directives::functions(text, &tokens, &directives)?;
@@ -70,6 +75,6 @@ pub(super) fn read(text: &str, asked: &Options, prelude: &mut usize) -> Result<F
             let shifted = |at: core::ops::Range<usize>| at.start + before..at.end + before;
             end_of_file(text, &tokens).map_or(fault, |open| Fault { at: open.at.map(shifted), ..open })
         }
-        _ => fault,
+        _ => words::or_included(fault, &directives),
     })
 }

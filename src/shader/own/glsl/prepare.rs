@@ -3,7 +3,7 @@
 //! Everything is blanked or replaced byte for byte, so that a message about what is left names the user's own line and
 //! column:
 //!
-//! * lines of `#version`, `#extension`, `#pragma`, `#line`; a version of OpenGL ES defines `GL_ES`;
+//! * lines of `#version`, `#extension`, `#pragma`, `#line`, `#include`; a version of OpenGL ES defines `GL_ES`;
 //! * functions that the one on trial does not come to, `main` among them;
 //! * precision statements, and `highp`, `mediump`, `lowp` everywhere: all is read as 32 bits;
 //! * `const` in front of a parameter;
@@ -184,7 +184,7 @@ fn blank_directives(bytes: &mut [u8], directives: &[Directive<'_>]) -> bool {
     let mut is_es = false;
     for directive in directives {
         let name = directive.name();
-        if matches!(name, "version" | "extension" | "pragma" | "line") {
+        if matches!(name, "version" | "extension" | "pragma" | "line" | "include") {
             is_es |= name == "version"
                 && (directive.words[2..].contains(&"es") || directive.words.get(2) == Some(&"100"));
             let line = &mut bytes[directive.at.clone()];

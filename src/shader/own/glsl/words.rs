@@ -1,6 +1,7 @@
 //! What naga's parser of GLSL says, in the words of the language.
 
 use super::super::error::Fault;
+use super::directives::Directive;
 use core::ops::Range;
 use naga::front::glsl::{ErrorKind, ExpectedToken, ParseErrors};
 
@@ -25,21 +26,39 @@ pub(super) fn said(errors: &ParseErrors, text: &str, textures: &[String]) -> Fau
     Fault::new(message).at(at)
 }
 
+/// Says of a name that is not known, of whatever it is, that a file may have it which is not included.
+pub(super) fn or_included(fault: Fault, directives: &[Directive<'_>]) -> Fault {
+    let is_unknown = ["declared nowhere", "nknown function", "nknown type", "expected a type"]
+        .iter()
+        .any(|words| fault.message.contains(words));
+    let included: Vec<_> = directives
+        .iter()
+        .filter(|directive| directive.name() == "include")
+        .map(|directive| format!("`{}`", directive.written))
+        .collect();
+    if !is_unknown || included.is_empty() {
+        return fault;
+    }
+    let files = included.join(", ");
+    Fault {
+        message: format!(
+            "{}; files are not included, and {files} may have it: paste its text",
+            fault.message
+        ),
+        ..fault
+    }
+}
+
 /// What the preprocessor says, by the name of its error.
 fn preprocessor(error: &str, text: &str, at: Option<Range<usize>>) -> Fault {
     let place = at.clone().map_or(0, |at| at.start);
     let start = text.get(..place).unwrap_or_default().rfind('\n').map_or(0, |end| end + 1);
     let line = text[start..].lines().next().unwrap_or_default().trim();
     let here = text.get(place..).and_then(|rest| rest.chars().next());
-    let directive = line.strip_prefix('#').map_or("", str::trim_start);
     match here {
         _ if error == "ErrorDirective" => Fault::new(format!("the file says: {line}")).at(at),
         Some(strange) if error == "UnexpectedHash" && strange != '#' => {
             Fault::new(format!("{:?} is no character of GLSL", strange.to_string())).at(at)
-        }
-        _ if error == "UnknownDirective" && directive.starts_with("include") => {
-            let sign = start + text[start..].find('#').unwrap_or(0);
-            Fault::new("files are not included; paste the text of this one").at(Some(sign..sign + 1))
         }
         _ => Fault::new(format!("the preprocessor stops here: {}", in_words(error))).at(at),
     }
