@@ -586,3 +586,69 @@ fn threshold(position: vec3f) -> f32 { return fract(position.x); }";
     let shader = wgsl(text, &options(&[])).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(threshold(&shader, [0.375, 0.0, 0.0]), 0.375);
 }
+
+/// Whether HLSL can be read here; with `HASHED_ALPHA_REQUIRE=compilers` it has to be.
+fn reads_hlsl() -> bool {
+    let required = std::env::var("HASHED_ALPHA_REQUIRE").is_ok_and(|list| list.contains("compilers"));
+    required || std::process::Command::new("glslangValidator").arg("--version").output().is_ok()
+}
+
+fn hlsl(text: &str, options: &Options) -> Result<OwnShader, String> {
+    parse("own.hlsl", Language::Hlsl, text.as_bytes(), options).map_err(|error| error.to_string())
+}
+
+#[test]
+fn hlsl_is_read_by_way_of_spir_v() {
+    if !reads_hlsl() {
+        return;
+    }
+    let text = "#include \"Common.hlsl\"
+Texture2D map : register(t0);
+SamplerState state : register(s0);
+cbuffer Params : register(b0) { float4 tint; float strength; };
+struct Varyings { float4 clip : SV_Position; float3 world : TEXCOORD0; };
+float lost(float2 uv) { return map.Sample(state, uv).a * fromCommon(uv); }
+half size(half3 p) { return length(ddx(p)); }
+#ifdef EXTRA
+float extra() { return 0.25; }
+#else
+float extra() { return 0.0; }
+#endif
+float threshold(in float3 positionWS, float2 pixel : SV_Position) {
+    float3 p = positionWS;
+    return frac(p.x) * strength + size(p) - 0.125 + extra() + 0.0 * pixel.x;
+}
+float4 main(Varyings i) : SV_Target { clip(lost(i.clip.xy) - threshold(i.world, i.clip.xy)); return tint; }";
+    let shader = hlsl(text, &options(&[("strength", "0.5")])).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(taken(&shader), ["`positionWS` is taken for `position`"]);
+    assert_eq!(threshold(&shader, [0.375, 0.0, 0.0]), 0.1875);
+    let shader = hlsl(text, &options(&[("strength", "0.5"), ("EXTRA", "1")])).unwrap();
+    assert_eq!(threshold(&shader, [0.375, 0.0, 0.0]), 0.4375);
+    for (wrong, wanted) in [
+        (text.replace("frac(p.x)", "frac(q.x)"), "own.hlsl:15:1: "),
+        (text.replace("float threshold(", "float other("), "functions are lost, size, extra, other, main"),
+        (text.replace("extra()", "lost(p.xy)"), "own.hlsl:"),
+        (
+            text.to_owned(),
+            "own.hlsl: `strength` of uniform block `Params` has no value: --set Params.strength=VALUE",
+        ),
+    ] {
+        let error = hlsl(&wrong, &options(&[])).unwrap_err();
+        assert!(error.contains(wanted), "{error}");
+    }
+}
+
+#[test]
+fn exported_hlsl_is_the_same_threshold() {
+    if !reads_hlsl() {
+        return;
+    }
+    for variant in [Variant::Isotropic, Variant::Anisotropic] {
+        let of = |language: export::Language, read| {
+            let bytes = export(Robust::new(variant), language).unwrap().into_bytes();
+            let shader = parse(language.name(), read, &bytes, &options(&[]));
+            threshold(&shader.unwrap_or_else(|error| panic!("{error}")), [0.3, -12.5, 1.0e3])
+        };
+        assert_eq!(of(export::Language::Hlsl, Language::Hlsl), of(export::Language::Wgsl, Language::Wgsl));
+    }
+}

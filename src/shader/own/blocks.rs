@@ -124,5 +124,7 @@ fn block<'m>(module: &'m Module, variable: &GlobalVariable) -> Option<(String, &
 fn structure<'m>(module: &'m Module, variable: &GlobalVariable) -> Option<(String, &'m [StructMember])> {
     let ty = &module.types[variable.ty];
     let TypeInner::Struct { members, .. } = &ty.inner else { return None };
-    Some((variable.name.clone().or_else(|| ty.name.clone())?, members))
+    // A compiler of HLSL gives the variable an empty name.
+    let name = variable.name.clone().filter(|name| !name.is_empty());
+    Some((name.or_else(|| ty.name.clone())?, members))
 }

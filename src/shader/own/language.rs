@@ -10,6 +10,8 @@ pub enum Language {
     /// GLSL of any version: `.glsl`, `.frag`, `.vert`, `.comp`, `.fs`, `.vs`, `.fsh`, `.vsh`, `.glslh`, `.inc`; Godot's
     /// `.gdshader` and `.gdshaderinc`.
     Glsl,
+    /// HLSL: `.hlsl`, `.hlsli`; read by glslang.
+    Hlsl,
     /// WGSL or GLSL in a string literal of a program: `.js`, `.mjs`, `.ts`, `.tsx`, `.py`, `.h`, `.hpp`, `.cpp`; a file without
     /// such a literal is GLSL.
     Quoted,
@@ -18,7 +20,7 @@ pub enum Language {
 }
 
 /// The endings that are known, as a message lists them.
-pub const ENDINGS: &str = ".wgsl, .glsl, .frag, .vert, .comp, .fs, .vs, .fsh, .vsh, .glslh, .inc, .gdshader, .gdshaderinc, .spv, and those of programs that \
+pub const ENDINGS: &str = ".wgsl, .glsl, .frag, .vert, .comp, .fs, .vs, .fsh, .vsh, .glslh, .inc, .gdshader, .gdshaderinc, .hlsl, .hlsli, .spv, and those of programs that \
                            hold a shader between quotes, .js, .mjs, .ts, .tsx, .py, .h, .hpp, .cpp";
 
 impl Language {
@@ -29,6 +31,7 @@ impl Language {
             "wgsl" => Some(Self::Wgsl),
             "glsl" | "frag" | "vert" | "comp" | "fs" | "vs" | "fsh" | "vsh" | "glslh" | "inc"
             | "gdshader" | "gdshaderinc" => Some(Self::Glsl),
+            "hlsl" | "hlsli" => Some(Self::Hlsl),
             "js" | "mjs" | "ts" | "tsx" | "py" | "h" | "hpp" | "cpp" => Some(Self::Quoted),
             "spv" => Some(Self::SpirV),
             _ => None,

@@ -11,6 +11,7 @@ mod derivative;
 mod error;
 mod front;
 mod glsl;
+mod hlsl;
 mod invalid;
 mod isolated;
 mod language;
@@ -119,6 +120,15 @@ pub fn parse(
                 text = decoded.0;
                 decoded.1?;
                 glsl::read(text, options, &mut prelude)
+            }
+            Language::Hlsl => {
+                let decoded = decoded(bytes);
+                text = decoded.0;
+                decoded.1?;
+                let front = hlsl::read(text, options)?;
+                // What is found from here on has no place in it.
+                text = "";
+                Ok(front)
             }
             Language::Quoted => {
                 let decoded = decoded(bytes);

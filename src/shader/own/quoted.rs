@@ -4,6 +4,7 @@
 use super::error::Fault;
 use super::scan::tokens;
 use core::ops::Range;
+use std::collections::BTreeSet;
 
 /// A string literal of a program.
 struct Literal {
@@ -28,8 +29,7 @@ pub(super) fn uncovered(text: &str, function: &str) -> Result<String, Fault> {
             return Ok(text.to_owned());
         }
         let parts = literals.iter().map(|literal| &text[literal.at.clone()]);
-        let mut names: Vec<_> = parts.flat_map(functions).collect();
-        names.dedup();
+        let names: Vec<_> = parts.flat_map(functions).collect();
         let known = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
         return Err(Fault::new(format!(
             "no text between quotes defines a function `{function}`; --function NAME takes one of another name; functions \
@@ -82,11 +82,11 @@ pub(super) fn defined<'t>(text: &'t str, function: &str) -> Option<&'t str> {
 }
 
 /// The names of the functions that a text defines.
-fn functions(text: &str) -> Vec<String> {
+pub(super) fn functions(text: &str) -> Vec<String> {
     let Ok(tokens) = tokens(text) else { return Vec::new() };
-    let mut names: Vec<_> = tokens.iter().filter_map(|token| token.function).collect();
-    names.dedup();
-    names.into_iter().map(|name| text[tokens[name].at.clone()].to_owned()).collect()
+    let mut seen = BTreeSet::new();
+    let names = tokens.iter().filter_map(|token| Some(&text[tokens[token.function?].at.clone()]));
+    names.filter(|name| seen.insert(*name)).map(str::to_owned).collect()
 }
 
 /// Finds the string literals of a program; comments are left out.

@@ -87,7 +87,7 @@ pub(super) fn reduce(front: Front, options: &Options) -> Result<Reduced, Fault> 
     blocks::refuse_unset(&module, &blocks)?;
     refuse_resources(&module, &filled, &uniforms)?;
     if begins_undefined {
-        refuse_undefined(&module, &options.function, derivatives.as_ref())?;
+        refuse_undefined(&module, &options.function, derivatives.as_ref().map_or(&[], |ours| &ours[..]))?;
     }
     rename_the_rest(&mut module);
     let info = validate_plain(&module).map_err(in_words)?;

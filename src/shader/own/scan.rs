@@ -59,7 +59,8 @@ pub(super) fn tokens(text: &str) -> Result<Vec<Token>, Fault> {
         match bytes[start] {
             b'(' => {
                 if braces == 0 && parentheses == 0 {
-                    let is_name = |&name: &usize| &text[tokens[name].at.clone()] != "layout";
+                    let is_name =
+                        |&name: &usize| !matches!(&text[tokens[name].at.clone()], "layout" | "register");
                     named = tokens.len().checked_sub(1).filter(is_name);
                 }
                 parentheses += 1;

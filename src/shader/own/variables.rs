@@ -1,6 +1,5 @@
 //! Variables of a module and where their values come from: a user's setting, the text, or nowhere.
 
-use super::derivative::Variables;
 use super::error::Fault;
 use super::setting::{Constant, Value};
 use super::signature;
@@ -100,16 +99,12 @@ pub(super) fn refuse_resources(
 }
 
 /// Refuses variables that are read and never written.
-pub(super) fn refuse_undefined(
-    module: &Module,
-    function: &str,
-    derivatives: Option<&Variables>,
-) -> Result<(), Fault> {
+pub(super) fn refuse_undefined(module: &Module, function: &str, ours: &[String]) -> Result<(), Fault> {
     let written: BTreeSet<_> =
         module.functions.iter().flat_map(|(_, function)| written_by(function)).collect();
     for (handle, variable) in module.global_variables.iter() {
         let name = variable.name.as_deref().unwrap_or("a variable");
-        let is_ours = derivatives.is_some_and(|ours| ours.iter().any(|our| our == name));
+        let is_ours = ours.iter().any(|our| our == name);
         if variable.init.is_none() && !written.contains(&handle) && !is_ours {
             let message = format!(
                 "`{name}` has no value: nothing that `{function}` comes to writes it; make it a parameter, a constant, or \

@@ -11,8 +11,32 @@ use super::front::{Front, filled_by_entry_points};
 use super::invalid::{CIRCLE, validate};
 use super::isolated::isolated;
 use super::options::Options;
-use super::scan::{end_of_file, tokens};
+use super::scan::{Token, end_of_file, tokens};
 use naga::front::glsl::Frontend;
+
+/// Blanks what a function of a text in this language or one like it does not come to, and lines of `#include`; nothing moves. Returns
+/// the settings that are macros, too.
+///
+/// # Errors
+///
+/// A condition without an end, and an end of none.
+pub(super) fn reached(
+    text: &str,
+    tokens: &[Token],
+    asked: &Options,
+) -> Result<(String, Vec<(String, String)>), Fault> {
+    let directives = directives::directives(text, tokens);
+    directives::functions(text, tokens, &directives)?;
+    let mut bytes = text.as_bytes().to_vec();
+    for directive in directives.iter().filter(|directive| directive.name() == "include") {
+        bytes[directive.at.clone()].iter_mut().filter(|byte| **byte != b'\n').for_each(|byte| *byte = b' ');
+    }
+    reach::blank_others(&mut bytes, text, tokens, &directives, &asked.function);
+    let settings = asked.settings.iter().filter(|(name, _)| directives::is_asked_for(&directives, name));
+    let defines = settings.map(|(name, value)| (name.clone(), value.clone())).collect();
+    // Nothing but whole tokens was replaced.
+    Ok((String::from_utf8_lossy(&bytes).into_owned(), defines))
+}
 
 /// Reads a text; `prelude` becomes the number of bytes that stand before it in what naga reads.
 ///
