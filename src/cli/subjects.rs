@@ -128,6 +128,10 @@ pub fn subjects(typed: &[String], args: &ShaderArgs) -> Result<Vec<Asked>, Failu
 }
 
 fn unknown(word: &str) -> Failure {
+    let file = word.rsplit_once('#').map_or(word, |(file, _)| file);
+    if let Some(instead) = own::instead_of(Path::new(file)) {
+        return Failure::Usage(format!("{file}: {instead}"));
+    }
     Failure::Usage(format!(
         "unknown subject `{word}`; known are paper:isotropic, paper:anisotropic, robust:isotropic, \
          robust:anisotropic, each with gpu: before it too, hash: with the name of a hash behind it, and files that end in {ENDINGS}"

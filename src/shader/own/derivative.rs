@@ -160,14 +160,7 @@ pub(super) fn wrap(module: &mut Module, target: Handle<Function>, variables: &Va
         ..Function::default()
     };
     let own_arguments = function.arguments.len();
-    let [dx, dy] = ["dpdx", "dpdy"].map(|name| {
-        let arguments = &mut function.arguments;
-        let found = arguments.iter().position(|argument| argument.name.as_deref() == Some(name));
-        found.unwrap_or_else(|| {
-            arguments.push(FunctionArgument { name: Some(name.to_owned()), ty: vector, binding: None });
-            arguments.len() - 1
-        })
-    });
+    let [dx, dy] = parameters(&mut function.arguments, vector);
     let mut body = Body::default();
     let arguments: Vec<_> = (0..function.arguments.len())
         .map(|index| body.append(Expression::FunctionArgument(index as u32)))
@@ -189,6 +182,17 @@ pub(super) fn wrap(module: &mut Module, target: Handle<Function>, variables: &Va
     (function.expressions, function.body) = (body.expressions, body.block);
     function.result = function.result.map(|FunctionResult { ty, .. }| FunctionResult { ty, binding: None });
     module.functions.append(function, Span::UNDEFINED)
+}
+
+/// Returns which parameters are `dpdx` and `dpdy`; appends those that are not there.
+pub(super) fn parameters(arguments: &mut Vec<FunctionArgument>, vector: Handle<Type>) -> [usize; 2] {
+    ["dpdx", "dpdy"].map(|name| {
+        let found = arguments.iter().position(|argument| argument.name.as_deref() == Some(name));
+        found.unwrap_or_else(|| {
+            arguments.push(FunctionArgument { name: Some(name.to_owned()), ty: vector, binding: None });
+            arguments.len() - 1
+        })
+    })
 }
 
 fn find(variables: &Arena<GlobalVariable>, name: &str) -> Option<Handle<GlobalVariable>> {

@@ -23,6 +23,19 @@ pub enum Language {
 pub const ENDINGS: &str = ".wgsl, .glsl, .frag, .vert, .comp, .fs, .vs, .fsh, .vsh, .glslh, .inc, .gdshader, .gdshaderinc, .hlsl, .hlsli, .spv, and those of programs that \
                            hold a shader between quotes, .js, .mjs, .ts, .tsx, .py, .h, .hpp, .cpp";
 
+/// Says what to hand over in the place of a file that is known, and cannot be read.
+#[must_use]
+pub fn instead_of(path: &Path) -> Option<&'static str> {
+    match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
+        "metal" => Some("MSL is not read: hand over the same function in HLSL, GLSL or WGSL"),
+        "slang" => Some("Slang is not read: `slangc -target wgsl` or `-target spirv` makes a file that is"),
+        "usf" | "ush" | "fx" | "fxh" | "shader" | "cginc" | "hlslinc" | "surfshader" => Some(
+            "it needs what its engine puts around it: copy the function, and what it calls, into a file .hlsl",
+        ),
+        _ => None,
+    }
+}
+
 impl Language {
     /// Returns the language that the ending of a file name stands for.
     #[must_use]

@@ -30,7 +30,7 @@ mod wgsl;
 
 pub use error::{Place, ShaderError};
 pub use isolated::READER;
-pub use language::{ENDINGS, Language};
+pub use language::{ENDINGS, Language, instead_of};
 pub use mapping::Taken;
 pub use options::Options;
 pub use setting::{Constant, Value};

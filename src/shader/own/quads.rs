@@ -7,6 +7,7 @@
 //! branches and loops.
 
 use super::body::Body;
+use super::derivative;
 use super::error::Fault;
 use super::invalid::called_by;
 use super::mapping::reached_from;
@@ -45,7 +46,7 @@ pub(super) fn wrap(
     name: &str,
 ) -> Result<Handle<Function>, Fault> {
     let reached = reached_from(module, target);
-    let derivative = reached.iter().find_map(|&function| {
+    let first = reached.iter().find_map(|&function| {
         let function = &module.functions[function];
         let place = |at| function.expressions.get_span(at).to_range();
         function.expressions.iter().find_map(|(at, expression)| match *expression {
@@ -54,7 +55,7 @@ pub(super) fn wrap(
             _ => None,
         })
     });
-    let Some(at) = derivative else { return Ok(target) };
+    let Some(at) = first else { return Ok(target) };
     let without = ["texcoord", "lod"].into_iter().find(|known| {
         module.functions[target].arguments.iter().any(|argument| argument.name.as_deref() == Some(known))
     });
@@ -158,14 +159,7 @@ fn call(module: &mut Module, target: Handle<Function>, twin: &Twin) -> Handle<Fu
         ..Function::default()
     };
     let own = function.arguments.clone();
-    let derivatives: [usize; AXES] = ["dpdx", "dpdy"].map(|name| {
-        let arguments = &mut function.arguments;
-        let found = arguments.iter().position(|argument| argument.name.as_deref() == Some(name));
-        found.unwrap_or_else(|| {
-            arguments.push(FunctionArgument { name: Some(name.to_owned()), ty: vector, binding: None });
-            arguments.len() - 1
-        })
-    });
+    let derivatives = derivative::parameters(&mut function.arguments, vector);
     let mut body = Body::default();
     let argument = |body: &mut Body, index: usize| body.append(Expression::FunctionArgument(index as u32));
     let mut handed: Vec<_> = (0..own.len()).map(|index| argument(&mut body, index)).collect();
