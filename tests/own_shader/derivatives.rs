@@ -116,3 +116,19 @@ fn a_position_that_is_changed_has_another_derivative() {
         assert_eq!(threshold(&shader, [0.375, 0.5, 0.75]), 0.5, "{text}");
     }
 }
+
+/// The short way by names and the long way by types take one thing for the position.
+#[test]
+fn what_has_a_value_or_another_meaning_has_no_derivative_of_the_position() {
+    let text = "float threshold(vec3 pos) { return length(dFdx(pos)) + 0.5; }";
+    assert_eq!(threshold(&glsl(text, &options(&[("pos", "1,2,3")])).unwrap(), [0.375, 0.5, 0.75]), 0.5);
+    let map = |value: &str, name: &str| Options {
+        map: [(value.to_owned(), name.to_owned())].into(),
+        ..Options::default()
+    };
+    let text = "float threshold(vec4 where) { return length(dFdx(where)) + dFdx(where.xyz).x; }";
+    assert_eq!(threshold(&glsl(text, &map("position", "where")).unwrap(), [0.375, 0.5, 0.75]), 0.25);
+    let text = "float threshold(vec3 pos, vec3 q) { return dFdx(q).x + 0.0 * pos.x; }";
+    let asked = Options { settings: [("pos".to_owned(), "0,0,0".to_owned())].into(), ..map("position", "q") };
+    assert_eq!(threshold(&glsl(text, &asked).unwrap(), [0.375, 0.5, 0.75]), 0.125);
+}

@@ -132,4 +132,15 @@ proptest! {
             prop_assert!(parse("any", language, text.as_bytes(), &options(&[])).is_err());
         }
     }
+
+    /// Quotes of all kinds, opened and closed or not.
+    #[test]
+    fn any_quotes_give_a_shader_or_a_message(text in "[-`'\"R()\\\\${}/*+,;a-f\n é]{0,60}") {
+        let asked = Options { function: "f".to_owned(), ..Options::default() };
+        for text in [text.clone(), format!("{text} float f() {{ return 1.0; }} {text}")] {
+            if let Err(error) = parse("any.js", Language::Quoted, text.as_bytes(), &asked) {
+                prop_assert!(!error.message.is_empty());
+            }
+        }
+    }
 }

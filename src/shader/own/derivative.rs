@@ -4,12 +4,13 @@
 use super::body::Body;
 use super::error::Fault;
 use super::mapping;
+use super::options::Options;
 use super::scan::Token;
 use naga::{
     Arena, Expression, Function, FunctionArgument, FunctionResult, GlobalVariable, Handle, Module, Span,
     Statement, Type, TypeInner, VectorSize,
 };
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 /// The names of the variables that take the place of derivatives: along x, along y, and the sum of both without signs. They are
 /// no longer than `dFdx(p`, and none of the text's own.
@@ -33,12 +34,12 @@ pub(super) fn replace(
     text: &mut [u8],
     tokens: &[Token],
     function: &str,
-    position: &str,
+    position: Option<&str>,
 ) -> Option<Variables> {
+    let position = position?.as_bytes();
     // The first ones are for the text itself.
     let mut spare = spare_names(tokens, text).rev();
-    let variables: Variables = core::array::from_fn(|_| spare.next().unwrap_or_default());
-    let position = position.as_bytes();
+    let variables: Variables = [spare.next()?, spare.next()?, spare.next()?];
     if is_changed(text, tokens, function, position) {
         return None;
     }
@@ -96,16 +97,12 @@ pub(super) fn spare_names(tokens: &[Token], text: &[u8]) -> impl DoubleEndedIter
     letters.map(|letter| format!("_{}", char::from(letter)))
 }
 
-/// What a text calls the position: a vector of three among the parameters of `function`, or one that comes from the stage before.
-pub(super) fn position<'t>(
-    text: &'t str,
-    tokens: &[Token],
-    function: &str,
-    said: &'t BTreeMap<String, String>,
-) -> &'t str {
+/// What a text calls the position: a vector of three among the parameters of the function that is asked for, or one that comes from
+/// the stage before. Nothing where that is not certain before it is parsed.
+pub(super) fn position<'t>(text: &'t str, tokens: &[Token], asked: &Options) -> Option<&'t str> {
     let word = |index: usize| tokens.get(index).map_or("", |token| &text[token.at.clone()]);
     let is_vector = |index: usize| matches!(word(index), "vec3" | "vec3f" | "float3");
-    let name = tokens.iter().find_map(|token| token.function.filter(|&name| word(name) == function));
+    let name = tokens.iter().find_map(|token| token.function.filter(|&name| word(name) == asked.function));
     let end = |start: usize| (start..tokens.len()).find(|&at| word(at) == "{").unwrap_or(start);
     let parameters = name.into_iter().flat_map(|start| start..end(start)).filter(|&at| is_vector(at));
     // `vec3 p` or `p: vec3<f32>`.
@@ -113,8 +110,7 @@ pub(super) fn position<'t>(
     let parameters: Vec<_> = parameters.filter(|&at| at > 1).map(named).collect();
     let is_input = |at: &usize| tokens[*at].function.is_none() && matches!(word(at - 1), "in" | "varying");
     let inputs: Vec<_> = (1..tokens.len()).filter(|&at| is_vector(at)).filter(is_input).map(named).collect();
-    let found = mapping::position_among(&parameters, said).or_else(|| mapping::position_among(&inputs, said));
-    found.unwrap_or("position")
+    mapping::position_among(&parameters, asked).or_else(|| mapping::position_among(&inputs, asked))
 }
 
 /// Refuses the derivatives that are left in a module of nothing but what the function on trial comes to, beside something that

@@ -3,6 +3,7 @@
 use super::body::Body;
 use super::error::Fault;
 use super::invalid::called_by;
+use super::options::Options;
 use super::signature::{self, described, described_inner};
 use super::variables::written_by;
 use core::fmt;
@@ -106,12 +107,12 @@ fn is_usual(of: &str, name: &str) -> bool {
 }
 
 /// Finds the position among the vectors of three that a text declares, by the rules of [`map`]; before it is parsed.
-pub(super) fn position_among<'n>(names: &[&'n str], said: &'n BTreeMap<String, String>) -> Option<&'n str> {
-    if let Some(name) = said.get("position") {
-        return Some(name);
+pub(super) fn position_among<'n>(names: &[&'n str], asked: &Options) -> Option<&'n str> {
+    let free = || names.iter().copied().filter(|&name| !asked.settings.contains_key(name));
+    if let Some(said) = asked.map.get("position") {
+        return free().find(|name| name == said);
     }
-    let exact = names.iter().copied().find(|&name| name == "position");
-    exact.or_else(|| only(names.iter().copied().filter(|name| is_usual("position", name))))
+    free().find(|&name| name == "position").or_else(|| only(free().filter(|name| is_usual("position", name))))
 }
 
 fn only<T>(mut found: impl Iterator<Item = T>) -> Option<T> {

@@ -23,7 +23,7 @@ pub(super) fn read(text: &str, asked: &Options) -> Result<Front, Fault> {
     }
     let mut bytes = text.as_bytes().to_vec();
     blank_imports(&mut bytes, &tokens)?;
-    let position = derivative::position(text, &tokens, &asked.function, &asked.map);
+    let position = derivative::position(text, &tokens, asked);
     let derivatives = derivative::replace(&mut bytes, &tokens, &asked.function, position);
     // Only ASCII was replaced, by ASCII.
     let mut prepared = String::from_utf8_lossy(&bytes).into_owned();

@@ -146,7 +146,7 @@ pub(super) fn prepare(
     }
     reach::blank_others(&mut bytes, text, tokens, directives, &asked.function);
     macros::measure(text, tokens, directives, |token| bytes[token.at.start] != b' ')?;
-    let position = derivative::position(text, tokens, &asked.function, &asked.map);
+    let position = derivative::position(text, tokens, asked);
     let derivatives = derivative::replace(&mut bytes, tokens, &asked.function, position);
     let prelude = derivatives.as_ref().map_or_else(String::new, derivative::glsl);
     // Nothing but whole characters was replaced, by ASCII.
