@@ -12,8 +12,8 @@ pub enum Language {
     Glsl,
     /// HLSL: `.hlsl`, `.hlsli`; read by glslang.
     Hlsl,
-    /// WGSL or GLSL in a string literal of a program: `.js`, `.mjs`, `.ts`, `.tsx`, `.py`, `.h`, `.hpp`, `.cpp`; a file without
-    /// such a literal is GLSL.
+    /// WGSL or GLSL in a string literal of a program: `.js`, `.mjs`, `.ts`, `.tsx`, `.py`, `.h`, `.hpp`, `.cpp`; a file that
+    /// defines the function outside of all literals is GLSL.
     Quoted,
     /// SPIR-V: `.spv`.
     SpirV,
