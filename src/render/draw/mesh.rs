@@ -72,6 +72,16 @@ impl Object {
 }
 
 impl Mesh {
+    /// Returns where the corners of a triangle are in the world in a frame, after the deformation of its object.
+    #[must_use]
+    pub fn place(&self, triangle: &Triangle, frame: f64) -> [DVec3; 3] {
+        let object = &self.objects[triangle.object as usize];
+        let to_world = object.to_world(frame);
+        triangle.corners.map(|corner| {
+            to_world.transform_point3(object.deform(self.vertices[corner as usize].object, frame))
+        })
+    }
+
     /// Returns for each triangle the number of the part that it belongs to: triangles of an object that share a corner are
     /// of one part, however many vertices that corner has, and whatever the unit of length.
     ///

@@ -9,10 +9,13 @@
 //! | [`work`] | what one frame becomes, and one tile of it |
 //! | [`frame`], [`mod@reference`] | a frame by a plan, and as it should be |
 //! | [`rays`] | rays, and what is in their way |
+//! | `extent`, `hierarchy` | boxes, and boxes within boxes, for those rays |
 
 pub mod cost;
+mod extent;
 pub mod fragments;
 pub mod frame;
+mod hierarchy;
 pub mod mesh;
 pub mod plan;
 mod project;

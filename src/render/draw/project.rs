@@ -86,11 +86,7 @@ pub(in crate::render) fn corners(
     space: Space,
 ) -> ([Corner; 3], f32) {
     let object = &mesh.objects[triangle.object as usize];
-    let to_world = object.to_world(frame);
-    let worlds = triangle.corners.map(|corner| {
-        let vertex = &mesh.vertices[corner as usize];
-        to_world.transform_point3(object.deform(vertex.object, frame))
-    });
+    let worlds = mesh.place(triangle, frame);
     let mut corners = [0, 1, 2].map(|c| {
         let vertex = &mesh.vertices[triangle.corners[c] as usize];
         let eye = camera.to_eye(worlds[c]);
