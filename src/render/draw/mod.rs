@@ -4,7 +4,7 @@
 //! |---|---|
 //! | [`view`], [`shot`] | where the camera stands, and the series of frames of a scene |
 //! | [`mesh`], [`rasterise`], [`fragments`] | triangles to fragments |
-//! | [`texture`] | what covers surfaces |
+//! | [`texture`], `level` | what covers surfaces |
 //! | [`setup`], [`plan`], [`cost`] | how a frame is set up, what is done to it, and what that costs |
 //! | [`work`] | what one frame becomes, and one tile of it |
 //! | [`frame`], [`mod@reference`] | a frame by a plan, and as it should be |
@@ -16,6 +16,7 @@ mod extent;
 pub mod fragments;
 pub mod frame;
 mod hierarchy;
+mod level;
 pub mod mesh;
 pub mod plan;
 mod project;

@@ -51,7 +51,24 @@ pub(in crate::render) struct Corner {
 }
 
 impl Projected {
+    /// Returns whether it may cover a place within a rectangle of pixels, of which the first and the last along each axis are
+    /// given.
+    ///
+    /// It is never wrong about a place that is covered: along each axis, what an edge says of a place only grows or only falls,
+    /// rounded or not, so that it says most at a corner.
+    pub(in crate::render) fn may_cover(&self, [[left, right], [top, bottom]]: [[u32; 2]; 2]) -> bool {
+        let along = |slope: f64, first: u32, last: u32| f64::from(if slope > 0.0 { last + 1 } else { first });
+        match &self.shape {
+            Shape::Edges(edges) => edges.iter().all(|(edge, _)| {
+                let most = dvec3(along(edge.x, left, right), along(edge.y, top, bottom), 1.0);
+                edge.dot(most) >= 0.0
+            }),
+            Shape::Outline(_) => true,
+        }
+    }
+
     /// What it covers of a pixel that has its samples at `places`; `None` for a pixel without fragment.
+    #[inline]
     pub(in crate::render) fn covers(&self, [x, y]: [u32; 2], places: &[DVec2]) -> Option<Covered> {
         let corner = dvec2(f64::from(x), f64::from(y));
         match &self.shape {
@@ -62,6 +79,14 @@ impl Projected {
                         inside > 0.0 || (inside == 0.0 && *inclusive)
                     })
                 };
+                if let [only] = places {
+                    // The centre.
+                    return is_inside(*only).then(|| Covered {
+                        share: 1.0,
+                        samples: 1,
+                        place: corner + *only,
+                    });
+                }
                 let inside = (0_u32..).zip(places).filter(|(_, place)| is_inside(**place));
                 let samples = inside.fold(0_u64, |mask, (i, _)| mask | 1 << i);
                 let first = places.get(samples.trailing_zeros() as usize)?;

@@ -61,7 +61,10 @@ impl Screen {
             let [[left, right], [top, bottom]] = triangle.bounds.map(|ends| ends.map(|pixel| pixel / TILE));
             for y in top..=bottom {
                 for x in left..=right {
-                    tiles[(y * across + x) as usize].push(index as u32);
+                    let of_tile = [x, y].map(|along| [along * TILE, along * TILE + TILE - 1]);
+                    if triangle.may_cover(of_tile) {
+                        tiles[(y * across + x) as usize].push(index as u32);
+                    }
                 }
             }
         }
@@ -142,12 +145,22 @@ impl Screen {
             out.dtdy.push(vec2(derivative(s, u, 1) as f32, derivative(t, v, 1) as f32));
         }
         if self.needs.footprint {
-            let (place, dx, dy) = match self.space {
-                Space::Screen => ([centre.x, centre.y, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]),
+            let mut push = |c: usize, place: f64, dx: f64, dy: f64| {
+                out.footprint.position[c].push(place as f32);
+                out.footprint.dpdx[c].push(dx as f32);
+                out.footprint.dpdy[c].push(dy as f32);
+            };
+            match self.space {
+                Space::Screen => {
+                    push(0, centre.x, 1.0, 0.0);
+                    push(1, centre.y, 0.0, 1.0);
+                    push(2, 0.0, 0.0, 0.0);
+                }
                 Space::Device => {
                     let [width, height] = self.size.map(f64::from);
-                    let place = [2.0 * centre.x / width - 1.0, 1.0 - 2.0 * centre.y / height, 0.0];
-                    (place, [2.0 / width, 0.0, 0.0], [0.0, -2.0 / height, 0.0])
+                    push(0, 2.0 * centre.x / width - 1.0, 2.0 / width, 0.0);
+                    push(1, 1.0 - 2.0 * centre.y / height, 0.0, -2.0 / height);
+                    push(2, 0.0, 0.0, 0.0);
                 }
                 Space::Object
                 | Space::Deformed
@@ -155,17 +168,11 @@ impl Screen {
                 | Space::World
                 | Space::Texture
                 | Space::Eye => {
-                    let place = triangle.place.map(value);
-                    let [dx, dy] =
-                        [0, 1].map(|axis| [0, 1, 2].map(|c| derivative(triangle.place[c], place[c], axis)));
-                    (place, dx, dy)
+                    for (c, &plane) in triangle.place.iter().enumerate() {
+                        let place = value(plane);
+                        push(c, place, derivative(plane, place, 0), derivative(plane, place, 1));
+                    }
                 }
-            };
-            let columns = &mut out.footprint;
-            for (c, ((place, dx), dy)) in place.into_iter().zip(dx).zip(dy).enumerate() {
-                columns.position[c].push(place as f32);
-                columns.dpdx[c].push(dx as f32);
-                columns.dpdy[c].push(dy as f32);
             }
         }
     }

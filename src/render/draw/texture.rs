@@ -1,6 +1,8 @@
 //! Textures: an alpha map with its mip chain, the colours that go with it, and how they are filtered.
 
-use crate::technique::prior_work;
+pub use super::level::Level;
+use super::level::{half, premultiply};
+use crate::threshold::real::Real;
 use glam::{Vec2, vec2};
 use serde::Deserialize;
 
@@ -32,17 +34,6 @@ pub enum Filter {
 
 /// The greatest number of probes of [`Filter::Anisotropic`]: what hardware goes to.
 const MOST_PROBES: f32 = 16.0;
-
-/// One level of a mip chain, row by row from the upper edge (texture coordinate y = 0).
-#[derive(Clone, Debug, PartialEq)]
-pub struct Level {
-    /// Width and height in texels, at least 1.
-    pub size: [u32; 2],
-    /// Alpha of each texel, in [0, 1].
-    pub alpha: Vec<f32>,
-    /// Colour of each texel as shares of 65535; empty for a texture that has none.
-    pub colour: Vec<[u16; 3]>,
-}
 
 /// A texture before its mip chain is built.
 #[derive(Clone, Debug)]
@@ -166,10 +157,11 @@ impl Texture {
     /// Returns the filtered alpha, in [0, 1], and adds to `texels` the number of texels that were read.
     #[must_use]
     pub fn alpha(&self, access: &Access, texels: &mut u64) -> f32 {
-        self.probe(access, |level, at| {
+        let [alpha] = self.probe(access, |level, at| {
             *texels += 1;
-            [level.alpha[at], 0.0, 0.0]
-        })[0]
+            [level.alpha[at]]
+        });
+        alpha
     }
 
     /// Returns the filtered colour, or `None` for a texture that has none; multiplied by alpha if the texture is.
@@ -192,31 +184,46 @@ impl Texture {
         if weight > 0.0 { (1.0 - weight) * of(finer) + weight * of(finer + 1) } else { of(finer) }
     }
 
-    fn probe(&self, access: &Access, mut texel: impl FnMut(&Level, usize) -> [f32; 3]) -> [f32; 3] {
-        let mut sum = [0.0; 3];
+    /// Filters what `texel` says of a level and the index of a texel.
+    fn probe<const N: usize>(
+        &self,
+        access: &Access,
+        mut texel: impl FnMut(&Level, usize) -> [f32; N],
+    ) -> [f32; N] {
+        let mut sum = [0.0; N];
         for probe in 0..access.probes {
             let place = access.texcoord + access.step * (probe as f32 - (access.probes - 1) as f32 * 0.5);
             let value = self.filtered(place, access.lod, &mut texel);
-            sum = [0, 1, 2].map(|c| sum[c] + value[c]);
+            sum.iter_mut().zip(value).for_each(|(sum, value)| *sum += value);
         }
         sum.map(|component| component / access.probes as f32)
     }
 
     /// The finer level of a trilinear access and the weight of the coarser one.
+    #[inline]
     fn blend(&self, lod: f32) -> (usize, f32) {
         let last = (self.levels.len() - 1) as f32;
         let lod = lod.clamp(0.0, last);
-        let finer = lod.floor();
-        (finer as usize, lod - finer)
+        let finer = lod as usize;
+        (finer, lod - finer as f32)
     }
 
-    fn filtered(&self, place: Vec2, lod: f32, texel: &mut impl FnMut(&Level, usize) -> [f32; 3]) -> [f32; 3] {
+    #[inline(always)]
+    fn filtered<const N: usize>(
+        &self,
+        place: Vec2,
+        lod: f32,
+        texel: &mut impl FnMut(&Level, usize) -> [f32; N],
+    ) -> [f32; N] {
         let nearest = || self.blend(lod.max(0.0) + 0.5).0.min(self.levels.len() - 1);
         match self.filter {
             Filter::Nearest => {
                 let level = &self.levels[nearest()];
-                let [x, y] = [0, 1].map(|axis| (place[axis] * level.size[axis] as f32).floor() as i64);
-                texel(level, level.at([x, y], self.wrap))
+                let [x, y] = [0, 1].map(|axis| {
+                    let along = (place[axis] * level.size[axis] as f32).floor_by_conversion();
+                    self.wrap.texel(along as i64, level.size[axis])
+                });
+                texel(level, level.index(x, y))
             }
             Filter::Bilinear => self.bilinear(nearest(), place, texel),
             Filter::Trilinear | Filter::Anisotropic => {
@@ -232,101 +239,58 @@ impl Texture {
         }
     }
 
-    fn bilinear(
+    #[inline(always)]
+    fn bilinear<const N: usize>(
         &self,
         level: usize,
         place: Vec2,
-        texel: &mut impl FnMut(&Level, usize) -> [f32; 3],
-    ) -> [f32; 3] {
+        texel: &mut impl FnMut(&Level, usize) -> [f32; N],
+    ) -> [f32; N] {
         let level = &self.levels[level];
-        let [x, y] = [0, 1].map(|axis| place[axis] * level.size[axis] as f32 - 0.5);
-        let (left, top) = (x.floor(), y.floor());
-        let mut at = |dx: i64, dy: i64| {
-            let index = level.at([left as i64 + dx, top as i64 + dy], self.wrap);
-            texel(level, index)
-        };
-        let upper = mix(at(0, 0), at(1, 0), x - left);
-        let lower = mix(at(0, 1), at(1, 1), x - left);
-        mix(upper, lower, y - top)
+        let (left, right, across) = self.wrap.between(place.x, level.size[0]);
+        let (top, bottom, down) = self.wrap.between(place.y, level.size[1]);
+        let mut at = |x, y| texel(level, level.index(x, y));
+        let upper = mix(at(left, top), at(right, top), across);
+        let lower = mix(at(left, bottom), at(right, bottom), across);
+        mix(upper, lower, down)
     }
 }
 
-impl Level {
-    /// Index of the texel at a place, inside the texture or not.
-    fn at(&self, [x, y]: [i64; 2], wrap: Wrap) -> usize {
-        let [width, height] = self.size.map(i64::from);
-        let [x, y] = match wrap {
-            Wrap::Repeat => [x.rem_euclid(width), y.rem_euclid(height)],
-            Wrap::Clamp => [x.clamp(0, width - 1), y.clamp(0, height - 1)],
-        };
-        (y * width + x) as usize
-    }
-
-    /// Returns its alphas as prior work sees them.
-    #[must_use]
-    pub fn alphas(&self) -> prior_work::Level<'_> {
-        let [width, height] = self.size.map(|side| side as usize);
-        prior_work::Level { texels: &self.alpha, width, height }
-    }
-}
-
-fn mix(a: [f32; 3], b: [f32; 3], weight: f32) -> [f32; 3] {
-    [0, 1, 2].map(|c| a[c] + (b[c] - a[c]) * weight)
-}
-
-fn premultiply(mut level: Level) -> Level {
-    for (colour, &alpha) in level.colour.iter_mut().zip(&level.alpha) {
-        *colour = colour.map(|share| (f32::from(share) * alpha).round() as u16);
-    }
-    level
-}
-
-/// For each texel of a side of half the length, the texels that it averages and their weights.
-fn shares(side: u32) -> Vec<Vec<(usize, f64)>> {
-    let halved = (side / 2).max(1);
-    let width = f64::from(side) / f64::from(halved);
-    (0..halved)
-        .map(|index| {
-            let (from, to) = (f64::from(index) * width, f64::from(index + 1) * width);
-            (from.floor() as usize..(to.ceil() as usize).min(side as usize))
-                .map(|texel| (texel, ((texel + 1) as f64).min(to) - (texel as f64).max(from)))
-                .filter(|&(_, weight)| weight > 0.0)
-                .map(|(texel, weight)| (texel, weight / width))
-                .collect()
-        })
-        .collect()
-}
-
-/// The next level; `None` after the one of a single texel.
-fn half(level: &Level) -> Option<Level> {
-    let [width, height] = level.size;
-    if level.size == [1, 1] {
-        return None;
-    }
-    let (columns, rows) = (shares(width), shares(height));
-    let mut next = Level {
-        size: [(width / 2).max(1), (height / 2).max(1)],
-        alpha: Vec::with_capacity(columns.len() * rows.len()),
-        colour: Vec::new(),
-    };
-    for row in &rows {
-        for column in &columns {
-            let average = |value: &dyn Fn(usize) -> f64| -> f64 {
-                row.iter()
-                    .flat_map(|&(y, down)| {
-                        column.iter().map(move |&(x, across)| (y * width as usize + x, down * across))
-                    })
-                    .map(|(at, weight)| value(at) * weight)
-                    .sum()
-            };
-            next.alpha.push(average(&|at| f64::from(level.alpha[at])) as f32);
-            if !level.colour.is_empty() {
-                next.colour
-                    .push([0, 1, 2].map(|c| average(&|at| f64::from(level.colour[at][c])).round() as u16));
-            }
+impl Wrap {
+    /// The texel that is read for a place along a side of so many, inside the texture or not.
+    fn texel(self, at: i64, side: u32) -> usize {
+        let side = i64::from(side);
+        if (0..side).contains(&at) {
+            return at as usize;
         }
+        let inside = match self {
+            Self::Repeat => at.rem_euclid(side),
+            Self::Clamp => at.clamp(0, side - 1),
+        };
+        inside as usize
     }
-    Some(next)
+
+    /// The two texels along a side of so many between whose middles a place lies, [0, 1] across the texture, and how far it is
+    /// from the first.
+    #[inline(always)]
+    fn between(self, place: f32, side: u32) -> (usize, usize, f32) {
+        let along = place * side as f32 - 0.5;
+        // Most places lie between two texels that are there, where rounding is towards zero.
+        if along >= 0.0 && along < (side - 1) as f32 {
+            let first = along as i32;
+            return (first as usize, first as usize + 1, along - first as f32);
+        }
+        let first = along.floor_by_conversion();
+        (self.texel(first as i64, side), self.texel(first as i64 + 1, side), along - first)
+    }
+}
+
+#[inline]
+fn mix<const N: usize>(mut a: [f32; N], b: [f32; N], weight: f32) -> [f32; N] {
+    for (a, b) in a.iter_mut().zip(b) {
+        *a += (b - *a) * weight;
+    }
+    a
 }
 
 #[cfg(test)]
