@@ -965,3 +965,18 @@ fn cost_lists_effects_and_sizes() {
     assert_eq!(sizes.lines().count(), 3, "{sizes}");
     assert!(folder.path().join("cost-sizes.svg").exists() && folder.path().join("cost-effects.csv").exists());
 }
+
+#[test]
+fn cost_writes_the_time_of_a_frame_into_a_page() {
+    let folder = tempfile::tempdir().unwrap();
+    let (out, page) = (folder.path().to_str().unwrap(), folder.path().join("page.md"));
+    let marks = ["before\n<!-- cost --drawing -->\n", "<!-- end of cost --drawing -->\nafter\n"];
+    std::fs::write(&page, marks.concat()).unwrap();
+    let typed = ["cost", "--drawing", "--quick", "--out", out, "--page", page.to_str().unwrap()];
+    let table = succeed(&typed, "");
+    let written = std::fs::read_to_string(&page).unwrap();
+    assert!(written.starts_with(marks[0]) && written.ends_with(marks[1]), "{written}");
+    // Four takes at five sizes below the headings, and below a rule in the page.
+    assert_eq!([table.lines().count(), written.lines().count()], [21, 26], "{table}{written}");
+    assert!(folder.path().join("cost-drawing.csv").exists());
+}

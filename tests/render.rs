@@ -1,5 +1,6 @@
 //! Scenes: the gallery shows what it must, plans cost what they predict, and an absent table leaves no trace.
 
+use hashed_alpha::cost::drawing::grass;
 use hashed_alpha::render::draw::cost::Census;
 use hashed_alpha::render::draw::plan::Plan;
 use hashed_alpha::render::effect::plan::{check, plan};
@@ -395,6 +396,28 @@ fn a_threshold_takes_as_many_hashes_as_its_plan_says() {
             let counted = count.load(Ordering::Relaxed) - traced;
             assert_eq!(counted, Model::Robust(preset).hashes(), "{variant} {join}");
         }
+    }
+}
+
+/// Many triangles and rays: what is sorted and searched on several threads, and counted beforehand.
+#[test]
+fn a_meadow_is_drawn_alike_on_any_number_of_threads_and_costs_what_is_predicted() {
+    let scene = grass(10_000, [96, 54]).expect("a sound scene");
+    let drawn_by = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+        pool.install(|| drawn(&scene))
+    };
+    let [one, two, five] = [1, 2, 5].map(drawn_by);
+    for other in [&two, &five] {
+        for (one, other) in one.takes.iter().zip(&other.takes) {
+            assert!(one.shown == other.shown, "{}", one.plan.name);
+            assert_eq!((&one.metrics, one.cost), (&other.metrics, other.cost));
+        }
+    }
+    for take in &one.takes {
+        let textures = scene.textures(&take.plan.setup.textures);
+        assert_eq!(take.cost, predict(&take.plan, &scene, &textures, &mut || ()), "{}", take.plan.name);
+        assert_eq!(take.cost.rays > 1000, take.plan.setup.rays);
     }
 }
 

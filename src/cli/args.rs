@@ -239,7 +239,8 @@ Examples:
   hashed-alpha cost --effects             what each effect of the paper adds, and Table 1 beside it
   hashed-alpha cost --effects --adapter nvidia
   hashed-alpha cost --sizes               time and memory of 10^4 to 10^9 samples, on 1 and 2 threads
-  hashed-alpha cost --sizes --samples 10000000000")]
+  hashed-alpha cost --sizes --samples 10000000000
+  hashed-alpha cost --drawing             time of a frame of up to 80 000 triangles and 1920 x 1080 pixels")]
 pub struct CostArgs {
     /// Measure effects: fixed, stochastic, hashed, fade-in, stratification, coverage; on the CPU and on the device
     #[arg(long, conflicts_with = "sizes")]
@@ -253,6 +254,12 @@ pub struct CostArgs {
     /// One number of samples in place of all powers of ten
     #[arg(long, value_name = "N", requires = "sizes", value_parser = clap::value_parser!(u64).range(1..=1_000_000_000_000))]
     pub samples: Option<u64>,
+    /// Measure the time of a frame against triangles and pixels, with and without rays, on all threads
+    #[arg(long, conflicts_with_all = ["effects", "sizes"])]
+    pub drawing: bool,
+    /// Write the table into this page, too, between its lines `<!-- cost --drawing -->` and `<!-- end of cost --drawing -->`
+    #[arg(long, value_name = "FILE", requires = "drawing")]
+    pub page: Option<PathBuf>,
     /// A few seconds, to see that all of it works; the figures are rough
     #[arg(long)]
     pub quick: bool,

@@ -4,8 +4,8 @@ use super::args::CostArgs;
 use super::failure::Failure;
 use super::{Ending, drivers, output};
 use hashed_alpha::cost::effects::Price;
-use hashed_alpha::cost::{Effort, effects, ladder, sizes, techniques};
-use hashed_alpha::report::cost::{json, pictures, table};
+use hashed_alpha::cost::{Effort, drawing, effects, ladder, sizes, techniques};
+use hashed_alpha::report::cost::{json, page, pictures, table};
 use hashed_alpha::report::directory::write_atomically;
 #[cfg(feature = "gpu")]
 use hashed_alpha::{
@@ -33,6 +33,8 @@ pub fn run(args: &CostArgs) -> Result<Ending, Failure> {
     let effort = if args.quick { Effort::Quick } else { Effort::Full };
     if args.sizes {
         of_sizes(args, effort)
+    } else if args.drawing {
+        of_drawing(args, effort)
     } else if args.effects {
         of_effects(args, effort)
     } else {
@@ -125,6 +127,26 @@ fn of_sizes(args: &CostArgs, effort: Effort) -> Result<Ending, Failure> {
         written(&args.out, name, &svg)?;
     }
     print(args, &table.aligned(), |out| json::write_sizes(&found, out))
+}
+
+fn of_drawing(args: &CostArgs, effort: Effort) -> Result<Ending, Failure> {
+    let found = measured(drawing::steps(effort), |done| drawing::drawings(effort, done));
+    let table = table::drawings(&found);
+    written(&args.out, "cost-drawing.csv", &table.csv())?;
+    if let Some(path) = &args.page {
+        let place = || path.display().to_string();
+        let text = std::fs::read_to_string(path).map_err(|source| Failure::File {
+            action: "read",
+            place: place(),
+            source,
+        })?;
+        let page = page::replaced(&text, "cost --drawing", &table.markdown()).ok_or_else(|| {
+            let marks = "`<!-- cost --drawing -->` and `<!-- end of cost --drawing -->`";
+            Failure::Usage(format!("{} does not have the lines {marks}", place()))
+        })?;
+        write_atomically(path, page.as_bytes())?;
+    }
+    print(args, &table.aligned(), |out| json::write_drawings(&found, out))
 }
 
 fn written(folder: &Path, name: &str, text: &str) -> Result<(), Failure> {

@@ -7,6 +7,7 @@
 //! | [`effects`] | what does each effect of the paper add? |
 //! | `devices` (feature `gpu`) | what does it add on a device, by the device's own clock? |
 //! | `techniques` (feature `render`) | what does each technique add to a whole frame of the scene that shows it? |
+//! | `drawing` (feature `render`) | how does the time of a frame grow with triangles and pixels? |
 //! | [`sizes`] | do time and memory grow with the number of samples? |
 //! | [`clock`] | how things are timed so that the ratios mean something |
 //! | [`pool`] | the footprints that are evaluated |
@@ -20,6 +21,8 @@ pub mod clock;
 #[cfg(feature = "gpu")]
 pub mod devices;
 pub mod double_double;
+#[cfg(feature = "render")]
+pub mod drawing;
 pub mod effects;
 pub mod ladder;
 pub mod law;

@@ -1,6 +1,7 @@
 //! Measurements as JSON Lines: one object a row. What was not measured, or is no number, is null.
 
 use crate::cost::Row;
+use crate::cost::drawing::Drawing;
 use crate::cost::effects::Price;
 use crate::cost::sizes::Size;
 use crate::cost::techniques::TechniquePrice;
@@ -111,6 +112,36 @@ pub fn write_techniques(prices: &[TechniquePrice], out: &mut (impl Write + ?Size
             table: effect.map_or("truth", |effect| effect.name),
             without: *without,
             with: *with,
+        }),
+    )
+}
+
+#[derive(Serialize)]
+struct DrawingLine<'a> {
+    triangles: usize,
+    resolution: [u32; 2],
+    take: &'a str,
+    fragments: u64,
+    rays: u64,
+    ms_min: f64,
+    ms_median: f64,
+}
+
+/// Writes the time of a frame against triangles and pixels.
+///
+/// # Errors
+/// What the writer says.
+pub fn write_drawings(drawings: &[Drawing], out: &mut (impl Write + ?Sized)) -> io::Result<()> {
+    write_lines(
+        out,
+        drawings.iter().map(|drawing| DrawingLine {
+            triangles: drawing.triangles,
+            resolution: drawing.resolution,
+            take: &drawing.take,
+            fragments: drawing.fragments,
+            rays: drawing.rays,
+            ms_min: drawing.time.min,
+            ms_median: drawing.time.median,
         }),
     )
 }

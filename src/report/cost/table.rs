@@ -1,6 +1,7 @@
 //! Measurements as headings and cells.
 
 use crate::cost::Row;
+use crate::cost::drawing::Drawing;
 use crate::cost::effects::{Price, TABLE_1, table_1_ratios};
 use crate::cost::sizes::Size;
 use crate::cost::techniques::{FramePrice, TechniquePrice};
@@ -48,6 +49,15 @@ impl Table {
         let headings = self.headings.iter().map(|heading| heading.replace(' ', "_")).collect();
         let rows = self.rows.iter().map(|row| line(row.iter().map(plain).collect()));
         std::iter::once(line(headings)).chain(rows).collect()
+    }
+
+    /// Returns the table as Markdown.
+    #[must_use]
+    pub fn markdown(&self) -> String {
+        let line = |cells: &[&str]| format!("| {} |\n", cells.join(" | "));
+        let rule = format!("|{}\n", "---|".repeat(self.headings.len()));
+        let rows = self.rows.iter().map(|row| line(&row.iter().map(String::as_str).collect::<Vec<_>>()));
+        [line(&self.headings), rule].into_iter().chain(rows).collect()
     }
 }
 
@@ -169,6 +179,28 @@ pub fn table_1() -> Table {
     }
 }
 
+/// Returns the time of a frame against triangles and pixels.
+#[must_use]
+pub fn drawings(drawings: &[Drawing]) -> Table {
+    let cells = |drawing: &Drawing| {
+        let [width, height] = drawing.resolution;
+        let each = drawing.time.median * 1e6 / drawing.fragments.max(1) as f64;
+        vec![
+            drawing.triangles.to_string(),
+            format!("{width} x {height}"),
+            drawing.take.clone(),
+            drawing.fragments.to_string(),
+            drawing.rays.to_string(),
+            format!("{:.1}", drawing.time.min),
+            format!("{:.1}", drawing.time.median),
+            format!("{each:.1}"),
+        ]
+    };
+    let headings =
+        ["triangles", "pixels", "take", "fragments", "rays", "ms min", "ms median", "ns a fragment"];
+    Table { headings: headings.to_vec(), rows: drawings.iter().map(cells).collect() }
+}
+
 /// Returns cost against size as a table.
 #[must_use]
 pub fn sizes(sizes: &[Size]) -> Table {
@@ -198,6 +230,7 @@ mod tests {
         };
         assert_eq!(table.aligned(), "a name  b\nx, y    1\nz       -\n");
         assert_eq!(table.csv(), "a_name,b\nx; y,1\nz,\n");
+        assert_eq!(table.markdown(), "| a name | b |\n|---|---|\n| x, y | 1 |\n| z | - |\n");
     }
 
     #[test]
