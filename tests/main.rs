@@ -34,6 +34,8 @@ mod stats;
 mod threads;
 
 #[cfg(feature = "shader")]
+mod causes;
+#[cfg(feature = "shader")]
 mod interpreter;
 #[cfg(feature = "shader")]
 mod interpreter_operations;

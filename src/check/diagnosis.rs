@@ -1,15 +1,17 @@
-//! What a rejected threshold looks like: the known defects, as specimens, that nearly the same claims reject.
+//! Why a threshold is rejected: its slips, by experiments on it ([`cause`]); where these show none, the specimens that
+//! nearly the same claims reject.
 
+use super::cause::{self, Examination};
 use super::claims::range::RANGE;
 use super::known::listing_fails;
 use super::outcome::{Outcome, Standing, Verdict};
 use super::specimen::{self, Specimen, matrix::KillMatrix};
-use super::subject::Precision;
+use super::subject::{Precision, Subject};
 use super::tolerance::GUESSES;
 use core::fmt;
 
 /// A specimen is named where it shares this much of what rejects it with a subject: with less, the two differ in most.
-const LEAST_LIKENESS: f64 = 0.3;
+const LEAST_LIKENESS: f64 = 0.5;
 
 /// A share of footprints without a threshold in (0, 1] beyond which a subject is told to have none: no specimen has more
 /// than a few.
@@ -84,18 +86,26 @@ pub fn guesses(outcomes: &[Outcome]) -> Vec<Guess> {
     guesses
 }
 
-/// What one subject of a run looks like.
+/// Why one subject of a run is rejected.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
-pub struct Diagnosis<'a> {
+pub struct Diagnosis {
     /// Name of the subject.
-    pub subject: &'a str,
+    pub subject: String,
     /// Its arithmetic.
     pub precision: Precision,
-    /// Whether it answers next to nothing but what is no threshold; then there are no guesses, since no other claim says more.
+    /// Whether it answers next to nothing but what is no threshold; then nothing else is said, since no other claim says more.
     pub is_no_threshold: bool,
-    /// The most similar specimens, at most three.
+    /// What experiments on it have shown.
+    pub examination: Examination,
+    /// The claims that speak against it.
+    pub rejections: Vec<&'static str>,
+    /// Those of them that neither a specimen with one of these slips nor the paper's own listing fails.
+    pub unexplained: Vec<&'static str>,
+    /// The most similar specimens, at most three; none where experiments have shown a slip, or that there is none.
     pub guesses: Vec<Guess>,
+    /// The claim that speaks most clearly against it, and what it has seen.
+    pub strongest: Option<(&'static str, String)>,
 }
 
 /// Whether nearly all thresholds are NaN or outside of (0, 1].
@@ -105,25 +115,56 @@ fn is_no_threshold(outcomes: &[Outcome]) -> bool {
     outcomes.iter().any(is_so)
 }
 
-/// Returns what the subjects of a run look like, as far as anything speaks against them.
+/// Returns why the subjects of a run are rejected, of those that are. `subjects` are asked again; one that is not among them is
+/// told by its outcomes alone.
 #[must_use]
-pub fn diagnoses(outcomes: &[Outcome]) -> Vec<Diagnosis<'_>> {
+pub fn diagnoses(outcomes: &[Outcome], subjects: &[Subject<'_>]) -> Vec<Diagnosis> {
     let of_one_subject = |a: &Outcome, b: &Outcome| a.subject == b.subject && a.precision == b.precision;
-    let diagnosis = |outcomes: &[Outcome]| {
-        let mut found = guesses(outcomes);
-        found.truncate(GUESSES);
-        found
-    };
-    outcomes
+    let rejected = outcomes
         .chunk_by(of_one_subject)
-        .map(|of| Diagnosis {
-            subject: &of[0].subject,
-            precision: of[0].precision,
-            is_no_threshold: is_no_threshold(of),
-            guesses: diagnosis(of),
-        })
-        .filter(|diagnosis| diagnosis.is_no_threshold || !diagnosis.guesses.is_empty())
-        .collect()
+        .filter(|outcomes| outcomes.iter().any(|outcome| outcome.standing() == Standing::Against));
+    rejected.map(|outcomes| diagnosis(outcomes, subjects)).collect()
+}
+
+fn diagnosis(outcomes: &[Outcome], subjects: &[Subject<'_>]) -> Diagnosis {
+    let Outcome { subject: name, precision, .. } = &outcomes[0];
+    let is_no_threshold = is_no_threshold(outcomes);
+    let subject = subjects.iter().find(|s| s.name == *name && s.precision == *precision);
+    let examination = match subject {
+        Some(subject) if !is_no_threshold => cause::examine(subject),
+        Some(_) | None => Examination::default(),
+    };
+    let against = || outcomes.iter().filter(|outcome| outcome.standing() == Standing::Against);
+    let matrix = KillMatrix::committed();
+    let is_of_a_slip = |check: &str| {
+        let rows = examination.found.iter().filter_map(|found| matrix.row(found.slip.name));
+        rows.into_iter().any(|row| row.claims.contains(&check))
+    };
+    let unexplained: Vec<&'static str> = against()
+        .filter(|o| !is_of_a_slip(o.check) && listing_fails(o).is_none())
+        .map(|outcome| outcome.check)
+        .collect();
+    let mut guesses = guesses(outcomes);
+    // What follows the listing is guessed at only where something is left that the listing does not fail.
+    let is_told = !examination.found.is_empty() || examination.follows && unexplained.is_empty();
+    guesses.truncate(if is_told { 0 } else { GUESSES });
+    // An effect in units of the smallest one that would have been seen.
+    let clarity = |outcome: &Outcome| match (outcome.effect, outcome.detectable) {
+        (Some(effect), Some(detectable)) if detectable > 0.0 => effect / detectable,
+        (Some(_), _) => 1.0,
+        (None, _) => 0.0,
+    };
+    let strongest = against().max_by(|a, b| clarity(a).total_cmp(&clarity(b)));
+    Diagnosis {
+        subject: name.clone(),
+        precision: *precision,
+        is_no_threshold,
+        rejections: against().map(|outcome| outcome.check).collect(),
+        unexplained,
+        guesses,
+        strongest: strongest.map(|outcome| (outcome.check, outcome.seen.clone().unwrap_or_default())),
+        examination,
+    }
 }
 
 #[cfg(test)]
@@ -172,7 +213,7 @@ pub(crate) mod tests {
             .iter()
             .map(|claim| Outcome { expected: claim.expected, ..outcome(claim.id, claim.expected) })
             .collect();
-        assert!(guesses(&sound).is_empty() && diagnoses(&sound).is_empty());
+        assert!(guesses(&sound).is_empty() && diagnoses(&sound, &[]).is_empty());
     }
 
     #[test]
@@ -209,12 +250,26 @@ pub(crate) mod tests {
         let mut outcomes = outcomes_of("signed-hash");
         let range = outcomes.iter_mut().find(|outcome| outcome.check == RANGE.id).unwrap();
         range.effect = Some(0.5);
-        let of_half = |outcomes: &[Outcome]| diagnoses(outcomes)[0].is_no_threshold;
+        let of_half = |outcomes: &[Outcome]| diagnoses(outcomes, &[])[0].is_no_threshold;
         assert!(!of_half(&outcomes));
         let range = outcomes.iter_mut().find(|outcome| outcome.check == RANGE.id).unwrap();
         range.effect = Some(1.0);
-        let found = diagnoses(&outcomes);
+        let found = diagnoses(&outcomes, &[]);
         assert!(found[0].is_no_threshold && found[0].guesses.is_empty(), "{found:?}");
+    }
+
+    #[test]
+    fn a_slip_that_experiments_show_is_told_and_nothing_is_guessed() {
+        let specimen = specimen::ALL.iter().find(|specimen| specimen.name == "dfdx-twice").unwrap();
+        let subject = (specimen.subject)();
+        let of_it = |o: Outcome| Outcome { subject: subject.name.clone(), precision: subject.precision, ..o };
+        let mut outcomes: Vec<Outcome> = outcomes_of("dfdx-twice").into_iter().map(of_it).collect();
+        let more = outcomes.iter_mut().find(|outcome| outcome.check == "range").unwrap();
+        more.verdict = Verdict::Rejected;
+        let found = diagnoses(&outcomes, &[subject]).remove(0);
+        let names: Vec<_> = found.examination.found.iter().map(|found| found.slip.name).collect();
+        assert_eq!(names, ["dfdx-twice"]);
+        assert!(found.guesses.is_empty() && found.unexplained == ["range"], "{found:?}");
     }
 
     #[test]
@@ -223,8 +278,9 @@ pub(crate) mod tests {
         outcomes.extend(
             outcomes_of("unchecked-inputs").into_iter().map(|o| Outcome { subject: "other".into(), ..o }),
         );
-        let found = diagnoses(&outcomes);
-        let names: Vec<_> = found.iter().map(|of| (of.subject, of.guesses[0].specimen.name)).collect();
+        let found = diagnoses(&outcomes, &[]);
+        let names: Vec<_> =
+            found.iter().map(|of| (of.subject.as_str(), of.guesses[0].specimen.name)).collect();
         assert_eq!(names, [("s", "dfdx-twice"), ("other", "unchecked-inputs")]);
         assert!(found.iter().all(|of| of.guesses.len() <= GUESSES));
     }

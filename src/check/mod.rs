@@ -20,6 +20,7 @@
 //! What never lives here: statistics themselves ([`crate::stats`]), pictures ([`crate::report`]), printing.
 
 #[doc(hidden)]
+pub mod cause;
 pub mod claim;
 pub mod claims;
 pub mod compare;

@@ -1,5 +1,7 @@
 //! The answers of one run about one subject, as somebody's own test suite wants them.
 
+use super::Subject;
+use super::cause::{self, Found};
 use super::diagnosis;
 use super::draw::Reach;
 use super::known::{self, OF_THE_LISTINGS};
@@ -49,6 +51,8 @@ pub struct Results {
     pub outcomes: Vec<Outcome>,
     /// What the subject is measured by.
     pub suite: Suite,
+    /// Slips of the subject that experiments on it have shown; empty where nothing speaks against it.
+    pub causes: Vec<Found>,
 }
 
 impl Results {
@@ -58,7 +62,14 @@ impl Results {
         if suite == Suite::Paper {
             known::mark(&mut outcomes, OF_THE_LISTINGS);
         }
-        Self { outcomes, suite }
+        Self { outcomes, suite, causes: Vec::new() }
+    }
+
+    /// Asks a subject that is rejected for its slips.
+    #[must_use]
+    pub fn examined(self, subject: &Subject<'_>) -> Self {
+        let causes = if self.is_consistent() { Vec::new() } else { cause::examine(subject).found };
+        Self { causes, ..self }
     }
 
     /// Returns the outcomes that speak against the subject.
@@ -100,10 +111,13 @@ impl fmt::Display for Results {
         if known > 0 {
             write!(f, "; the paper's own listing fails {known} others too")?;
         }
+        for (place, cause) in self.causes.iter().enumerate() {
+            write!(f, "\n{}{cause}", if place == 0 { "cause: " } else { "and: " })?;
+        }
         for outcome in self.news() {
             write!(f, "\n\n{outcome}")?;
         }
-        if news == 0 {
+        if news == 0 || !self.causes.is_empty() {
             return Ok(());
         }
         let guesses = diagnosis::guesses(&self.outcomes);

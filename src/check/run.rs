@@ -37,7 +37,8 @@ const BARE_HASH: &str = "a bare hash has one cell and no more: the claim is abou
 #[must_use]
 pub fn run(subject: &Subject<'_>, suite: Suite, budget: Budget) -> Results {
     let draw = Draw { budget, reach: suite.reach(), ..Draw::default() };
-    Results::new(run_claims(claims::ALL, core::slice::from_ref(subject), &draw, || {}), suite)
+    let outcomes = run_claims(claims::ALL, core::slice::from_ref(subject), &draw, || {});
+    Results::new(outcomes, suite).examined(subject)
 }
 
 /// Tries each claim on each subject and judges them together, at a family-wise level of 1e-6.

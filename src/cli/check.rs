@@ -5,11 +5,13 @@ use super::failure::Failure;
 use super::subjects::{self, Asked, Place};
 use super::{Ending, drivers, growth, known, output, shader_files};
 use hashed_alpha::check::claims::{self, exact::CELLS};
+use hashed_alpha::check::diagnosis::diagnoses;
 use hashed_alpha::check::growth::Plan;
 use hashed_alpha::check::known::{Known, OF_THE_LISTINGS, mark};
 use hashed_alpha::check::outcome::worst;
 use hashed_alpha::check::{self, Claim, Draw, Outcome, Standing, Subject, Suite, Verdict};
 use hashed_alpha::report::by_model::by_model;
+use hashed_alpha::report::cause::causes;
 use hashed_alpha::report::html::Run;
 use hashed_alpha::report::{directory, json, text};
 use indicatif::ProgressBar;
@@ -60,17 +62,20 @@ pub fn run(args: &CheckArgs) -> Result<Ending, Failure> {
         mark(&mut outcomes, OF_THE_LISTINGS);
     }
     mark(&mut outcomes, &known);
+    let diagnoses = diagnoses(&outcomes, &subjects);
     if let Some(folder) = folder {
-        directory::write_report(folder, &outcomes, &this_run(args.seed))?;
+        directory::write_report(folder, &outcomes, &diagnoses, &this_run(args.seed))?;
         output::remark("note", format_args!("the report is in {}", folder.join("index.html").display()));
     }
     let results = &mut output::results();
     let written = if args.json {
-        json::write_json_lines(&outcomes, &mut *results)
+        json::write_json_lines(&outcomes, &diagnoses, &mut *results)
     } else {
-        let mut tables = text::table(&outcomes, output::takes_colour());
+        let mut tables = text::table(&outcomes, &diagnoses, output::takes_colour());
         tables.extend(models.iter().map(|(name, models)| by_model(&outcomes, name, models)));
-        results.write_all(tables.as_bytes())
+        // The first line has long left the screen of a terminal.
+        let again = if output::is_terminal() { causes(&diagnoses, text::COLUMNS) } else { String::new() };
+        results.write_all(tables.as_bytes()).and_then(|()| results.write_all(again.as_bytes()))
     };
     written.and_then(|()| results.flush()).map_err(Failure::Output)?;
 

@@ -12,7 +12,12 @@ pub fn results() -> BufWriter<StdoutLock<'static>> {
 
 /// Tells whether results may carry colours: on a terminal, unless `NO_COLOR` says no.
 pub fn takes_colour() -> bool {
-    io::stdout().is_terminal() && env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
+    is_terminal() && env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
+}
+
+/// Tells whether somebody reads the results on a terminal.
+pub fn is_terminal() -> bool {
+    io::stdout().is_terminal()
 }
 
 /// Writes `kind: text` to stderr. Nobody is left to hear of it when that fails.

@@ -3,6 +3,7 @@
 use super::figure::evidence::evidence;
 use super::html::{self, Run};
 use super::json::write_json_lines;
+use crate::check::diagnosis::Diagnosis;
 use crate::check::{Evidence, Outcome};
 use std::collections::BTreeSet;
 use std::fs::{self, OpenOptions};
@@ -47,7 +48,12 @@ const MARK: &str = "<!-- a picture of a hashed-alpha report -->\n";
 /// # Errors
 ///
 /// If the directory or a file cannot be written or a stale picture cannot be removed; the error names the path.
-pub fn write_report(dir: &Path, outcomes: &[Outcome], run: &Run) -> Result<Vec<PathBuf>, ReportError> {
+pub fn write_report(
+    dir: &Path,
+    outcomes: &[Outcome],
+    diagnoses: &[Diagnosis],
+    run: &Run,
+) -> Result<Vec<PathBuf>, ReportError> {
     fs::create_dir_all(dir).map_err(|source| ReportError::File {
         action: "create",
         path: dir.into(),
@@ -65,7 +71,7 @@ pub fn write_report(dir: &Path, outcomes: &[Outcome], run: &Run) -> Result<Vec<P
     }
     let mut lines = Vec::new();
     let data = dir.join("check.jsonl");
-    write_json_lines(outcomes, &mut lines).map_err(|source| ReportError::File {
+    write_json_lines(outcomes, diagnoses, &mut lines).map_err(|source| ReportError::File {
         action: "make the lines of",
         path: data.clone(),
         source,
@@ -73,7 +79,7 @@ pub fn write_report(dir: &Path, outcomes: &[Outcome], run: &Run) -> Result<Vec<P
     write_atomically(&data, &lines)?;
     written.push(data);
     let index = dir.join("index.html");
-    let page = html::page(outcomes, &names, run)
+    let page = html::page(outcomes, &names, diagnoses, run)
         .map_err(|source| ReportError::Page { path: index.clone(), source })?;
     write_atomically(&index, page.as_bytes())?;
     written.push(index);
@@ -224,7 +230,7 @@ mod tests {
     fn report_holds_lines_page_and_pictures() {
         let root = tempfile::tempdir().unwrap();
         let dir = root.path().join("new").join("report");
-        let written = write_report(&dir, &example::outcomes(), &run()).unwrap();
+        let written = write_report(&dir, &example::outcomes(), &[], &run()).unwrap();
         let expected = [
             "check.jsonl",
             "independence.neighbours--specimen-raw-hash--f32.svg",
@@ -239,18 +245,18 @@ mod tests {
             assert!(page.contains(&format!("src=\"{picture}\"")), "{picture}");
         }
         let bytes: Vec<_> = written.iter().map(|path| fs::read(path).unwrap()).collect();
-        write_report(&dir, &example::outcomes(), &run()).unwrap();
+        write_report(&dir, &example::outcomes(), &[], &run()).unwrap();
         assert_eq!(bytes, written.iter().map(|path| fs::read(path).unwrap()).collect::<Vec<_>>());
     }
 
     #[test]
     fn stale_pictures_go_and_foreign_files_stay() {
         let root = tempfile::tempdir().unwrap();
-        write_report(root.path(), &example::outcomes(), &run()).unwrap();
+        write_report(root.path(), &example::outcomes(), &[], &run()).unwrap();
         for foreign in ["a--b--c.svg", "notes.txt", "photo.svg"] {
             fs::write(root.path().join(foreign), "<svg></svg>").unwrap();
         }
-        write_report(root.path(), &example::outcomes()[..1], &run()).unwrap();
+        write_report(root.path(), &example::outcomes()[..1], &[], &run()).unwrap();
         let expected = [
             "a--b--c.svg",
             "check.jsonl",
@@ -321,7 +327,7 @@ mod tests {
         let root = tempfile::tempdir().unwrap();
         let file = root.path().join("file");
         fs::write(&file, "").unwrap();
-        let error = write_report(&file.join("report"), &[], &run()).unwrap_err();
+        let error = write_report(&file.join("report"), &[], &[], &run()).unwrap_err();
         assert!(error.to_string().contains("report"), "{error}");
     }
 

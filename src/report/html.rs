@@ -1,8 +1,9 @@
 //! The outcomes as one page: no scripts, nothing from elsewhere, pictures in files beside it.
 
+use super::cause::sentences;
 use super::sampled;
 use super::text::{number, remark, summary};
-use crate::check::diagnosis::{Diagnosis, diagnoses};
+use crate::check::diagnosis::Diagnosis;
 use crate::check::outcome::worst;
 use crate::check::{Outcome, Standing};
 use minijinja::value::Serde;
@@ -108,6 +109,7 @@ fn cell(claim: &Shown<'_>) -> OverviewCell {
 pub fn page(
     outcomes: &[Outcome],
     pictures: &[Option<String>],
+    diagnoses: &[Diagnosis],
     run: &Run,
 ) -> Result<String, minijinja::Error> {
     let mut environment = Environment::new();
@@ -133,7 +135,7 @@ pub fn page(
         claims => Serde(&listed),
         sampled => sampled::rows(outcomes),
         sampled_headings => sampled::HEADINGS,
-        lookalikes => Serde(&lookalikes(outcomes)),
+        causes => Serde(&causes(diagnoses)),
     })
 }
 
@@ -167,26 +169,19 @@ fn claim<'a>(index: usize, outcome: &'a Outcome, picture: Option<&'a str>) -> Sh
     }
 }
 
-/// A specimen that a subject of the run looks like.
+/// Why a subject is rejected.
 #[derive(Serialize)]
-struct Lookalike {
+struct Cause {
     subject: String,
-    name: &'static str,
-    defect: &'static str,
-    mend: &'static str,
+    sentences: Vec<String>,
 }
 
-fn lookalikes(outcomes: &[Outcome]) -> Vec<Lookalike> {
-    let of_subject = |diagnosis: Diagnosis<'_>| {
-        let subject = format!("{}, {}", diagnosis.subject, diagnosis.precision);
-        diagnosis.guesses.into_iter().map(move |guess| Lookalike {
-            subject: subject.clone(),
-            name: guess.specimen.name,
-            defect: guess.specimen.defect,
-            mend: guess.specimen.mend,
-        })
+fn causes(diagnoses: &[Diagnosis]) -> Vec<Cause> {
+    let of_subject = |diagnosis: &Diagnosis| Cause {
+        subject: format!("{}, {}", diagnosis.subject, diagnosis.precision),
+        sentences: sentences(diagnosis),
     };
-    diagnoses(outcomes).into_iter().flat_map(of_subject).collect()
+    diagnoses.iter().map(of_subject).collect()
 }
 
 /// The style of a badge.
@@ -224,6 +219,7 @@ mod tests {
     use super::super::example;
     use super::*;
     use crate::check::Verdict;
+    use crate::check::diagnosis::diagnoses;
 
     fn run() -> Run {
         Run { command: "hashed-alpha check '<b>'".to_owned(), seed: u64::MAX, version: "0.1.0".to_owned() }
@@ -233,7 +229,7 @@ mod tests {
         let outcomes = example::outcomes();
         let pictures: Vec<_> =
             outcomes.iter().enumerate().map(|(i, _)| (i < 3).then(|| format!("{i}.svg"))).collect();
-        page(&outcomes, &pictures, &run()).unwrap()
+        page(&outcomes, &pictures, &[], &run()).unwrap()
     }
 
     #[test]
@@ -273,9 +269,10 @@ mod tests {
             expected: Verdict::Rejected,
             ..example::consistent()
         };
-        let rejected = page(&[outcome], &[], &run()).unwrap();
-        assert!(rejected.contains("<h2>Looks like</h2>"));
-        assert!(!page(&[example::consistent()], &[], &run()).unwrap().contains("Looks like"));
+        let outcomes = [outcome];
+        let rejected = page(&outcomes, &[], &diagnoses(&outcomes, &[]), &run()).unwrap();
+        assert!(rejected.contains("<h2>Cause</h2>") && rejected.contains("it looks like"));
+        assert!(!page(&[example::consistent()], &[], &[], &run()).unwrap().contains("Cause"));
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! The outcomes as JSON Lines: one object a claim, in the order in which the claims were tried.
 
+use crate::check::diagnosis::Diagnosis;
 use crate::check::domain::Levels;
 use crate::check::known::listing_fails;
 use crate::check::{Domain, Outcome};
@@ -35,6 +36,7 @@ struct Line<'a> {
     listing_fails: Option<&'a str>,
     standing: &'a str,
     domain: Option<Sampled>,
+    causes: Vec<&'a str>,
 }
 
 /// What was sampled. Ranges have both ends; octaves and distances are whole logarithms to base two.
@@ -82,8 +84,11 @@ impl From<&Domain> for Sampled {
     }
 }
 
-impl<'a> From<&'a Outcome> for Line<'a> {
-    fn from(outcome: &'a Outcome) -> Self {
+impl<'a> Line<'a> {
+    fn of(outcome: &'a Outcome, diagnoses: &'a [Diagnosis]) -> Self {
+        let own =
+            diagnoses.iter().find(|of| of.subject == outcome.subject && of.precision == outcome.precision);
+        let found = own.map_or(&[][..], |own| &own.examination.found);
         let finite = |value: Option<f64>| value.filter(|v| v.is_finite());
         Self {
             schema: SCHEMA,
@@ -109,6 +114,7 @@ impl<'a> From<&'a Outcome> for Line<'a> {
             listing_fails: listing_fails(outcome),
             standing: outcome.standing().name(),
             domain: (outcome.domain.n > 0).then(|| Sampled::from(&outcome.domain)),
+            causes: found.iter().map(|found| found.slip.name).collect(),
         }
     }
 }
@@ -116,14 +122,15 @@ impl<'a> From<&'a Outcome> for Line<'a> {
 /// Writes one JSON object a line and an outcome.
 ///
 /// Values that are absent or not finite become `null`. Integers (`n`, `seed`) are written in full, up to 2^64 - 1:
-/// readers that hold numbers as `f64` round large seeds. The evidence is not written.
+/// readers that hold numbers as `f64` round large seeds. The evidence is not written. `causes` names the slips of the subject, in
+/// each of its lines.
 ///
 /// # Errors
 ///
 /// Those of `to`.
-pub fn write_json_lines(outcomes: &[Outcome], mut to: impl Write) -> io::Result<()> {
+pub fn write_json_lines(outcomes: &[Outcome], diagnoses: &[Diagnosis], mut to: impl Write) -> io::Result<()> {
     for outcome in outcomes {
-        serde_json::to_writer(&mut to, &Line::from(outcome))?;
+        serde_json::to_writer(&mut to, &Line::of(outcome, diagnoses))?;
         to.write_all(b"\n")?;
     }
     Ok(())
@@ -136,7 +143,7 @@ mod tests {
 
     fn lines() -> Vec<String> {
         let mut bytes = Vec::new();
-        write_json_lines(&example::outcomes(), &mut bytes).unwrap();
+        write_json_lines(&example::outcomes(), &[], &mut bytes).unwrap();
         String::from_utf8(bytes).unwrap().lines().map(str::to_owned).collect()
     }
 
@@ -150,7 +157,7 @@ mod tests {
              \"detectable\":0.00016,\"seed\":18446744073709551615,\"finding\":null,\"expected\":\"consistent\",\
              \"statement\":\"Thresholds are uniform for every lerp factor.\",\
              \"statistic_name\":\"chi-square, 63 dof\",\"effect_name\":\"excess chi-square per sample\",\"known\":null,\"rounds\":1,\
-             \"listing_fails\":null,\"standing\":\"as_expected\",\"domain\":null}"
+             \"listing_fails\":null,\"standing\":\"as_expected\",\"domain\":null,\"causes\":[]}"
         );
     }
 
@@ -161,7 +168,7 @@ mod tests {
         for line in &lines {
             let value: serde_json::Value = serde_json::from_str(line).unwrap();
             assert_eq!(value["schema"], 2);
-            assert_eq!(value.as_object().unwrap().len(), 23);
+            assert_eq!(value.as_object().unwrap().len(), 24);
         }
     }
 }

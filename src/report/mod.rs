@@ -18,6 +18,7 @@
 
 #[cfg(feature = "cli")]
 pub mod by_model;
+pub mod cause;
 #[cfg(feature = "cli")]
 pub mod cost;
 #[cfg(feature = "cli")]

@@ -1,13 +1,10 @@
 //! The outcomes as a table for a terminal, at most [`COLUMNS`] wide.
 
+use super::cause::causes;
 use super::sampled;
-use crate::check::diagnosis::{Diagnosis, diagnoses};
+use crate::check::diagnosis::Diagnosis;
 use crate::check::{Outcome, Standing, Verdict};
 use std::fmt::Write as _;
-
-/// What is said of a subject that has no thresholds.
-const NO_THRESHOLD: &str = "nearly nothing that it answers is a threshold: NaN, or outside of (0, 1]; see `range`, before \
-                            anything else";
 
 /// The widest line, in characters.
 pub const COLUMNS: usize = 120;
@@ -24,13 +21,13 @@ const SHORTEST_NAME: usize = 12;
 const WIDEST_CLAIM: usize = 28;
 const WIDEST_SAMPLED: usize = 14;
 
-/// Returns the table, with a line break after every line: headings, one line a claim, below it its finding where it
-/// has one, then what each claim has sampled, what each subject looks like that something speaks against, and [`summary`].
+/// Returns the table, with a line break after every line: why subjects are rejected, headings, one line a claim, below it its finding
+/// where it has one, then what each claim has sampled, and [`summary`].
 ///
 /// `colour` puts ANSI colours around verdicts: green where the answer is the expected one, red where it is not and nobody knew,
 /// yellow where it is known or there is none. Without it the text is plain. Names that do not fit are cut in the middle.
 #[must_use]
-pub fn table(outcomes: &[Outcome], colour: bool) -> String {
+pub fn table(outcomes: &[Outcome], diagnoses: &[Diagnosis], colour: bool) -> String {
     let mut rows: Vec<[String; 8]> = outcomes.iter().map(cells).collect();
     let mut widths = HEADINGS.map(|heading| heading.chars().count());
     for row in &rows {
@@ -44,7 +41,7 @@ pub fn table(outcomes: &[Outcome], colour: bool) -> String {
             *cell = cut(cell, width);
         }
     }
-    let mut text = String::new();
+    let mut text = causes(diagnoses, COLUMNS);
     push_row(&mut text, &HEADINGS.map(str::to_owned), &widths, None);
     let mut told = None;
     for (row, outcome) in rows.iter().zip(outcomes) {
@@ -57,9 +54,6 @@ pub fn table(outcomes: &[Outcome], colour: bool) -> String {
         }
     }
     push_sampled(&mut text, outcomes);
-    for diagnosis in diagnoses(outcomes) {
-        push_diagnosis(&mut text, &diagnosis);
-    }
     wrap(&summary(outcomes), COLUMNS).iter().for_each(|line| push_line(&mut text, line));
     text
 }
@@ -212,23 +206,6 @@ fn push_finding(text: &mut String, outcome: &Outcome, paint: Option<&str>) {
     }
 }
 
-fn push_diagnosis(text: &mut String, diagnosis: &Diagnosis<'_>) {
-    if diagnosis.is_no_threshold {
-        let line = format!("{} in {}: {NO_THRESHOLD}", diagnosis.subject, diagnosis.precision);
-        wrap(&line, COLUMNS).iter().for_each(|line| push_line(text, line));
-    }
-    for (place, guess) in diagnosis.guesses.iter().enumerate() {
-        let line = match place {
-            0 => format!("{} in {} looks like: {guess}", diagnosis.subject, diagnosis.precision),
-            _ => format!("or like: {guess}"),
-        };
-        for (part, line) in wrap(&line, COLUMNS - INDENT.len()).iter().enumerate() {
-            let indent = if place == 0 && part == 0 { "" } else { INDENT };
-            push_line(text, &format!("{indent}{line}"));
-        }
-    }
-}
-
 /// Breaks a text between words; a word that is longer than the line is broken too.
 pub(super) fn wrap(text: &str, width: usize) -> Vec<String> {
     let mut lines = vec![String::new()];
@@ -268,10 +245,11 @@ fn paint_of(outcome: &Outcome) -> &'static str {
 mod tests {
     use super::super::example;
     use super::*;
+    use crate::check::diagnosis::diagnoses;
 
     #[test]
     fn table_is_aligned_and_fits() {
-        let text = table(&example::outcomes(), false);
+        let text = table(&example::outcomes(), &[], false);
         assert!(!text.contains('\u{1b}'));
         for line in text.lines() {
             assert!(line.chars().count() <= COLUMNS, "{line}");
@@ -283,7 +261,7 @@ mod tests {
 
     #[test]
     fn a_rejected_claim_is_followed_by_its_finding() {
-        let text = table(&example::outcomes(), false);
+        let text = table(&example::outcomes(), &[], false);
         let lines: Vec<_> = text.lines().collect();
         let at = lines.iter().position(|line| line.contains("stability.translate")).unwrap();
         assert!(lines[at].starts_with("rejected "));
@@ -303,9 +281,11 @@ mod tests {
             expected: Verdict::Rejected,
             ..example::consistent()
         };
-        let text = table(&[outcome], false);
-        assert!(text.contains("\nmine in f32 looks like: "), "{text}");
-        assert!(!table(&[example::consistent()], false).contains("looks like"));
+        let of = |outcomes: &[Outcome]| table(outcomes, &diagnoses(outcomes, &[]), false);
+        assert!(
+            of(&[outcome]).starts_with("cause of mine in f32: no experiment shows a slip; it looks like ")
+        );
+        assert!(of(&[example::consistent()]).starts_with("verdict "));
     }
 
     #[test]
@@ -315,7 +295,7 @@ mod tests {
             "7 claims: 1 consistent; 1 rejected; 1 rejected, as they must be; 1 not rejected, though they must be; \
              1 inconclusive; 1 unavailable; 1 not applicable"
         );
-        assert!(table(&example::outcomes()[1..4], false).ends_with(
+        assert!(table(&example::outcomes()[1..4], &[], false).ends_with(
             "\n3 claims: 1 rejected; 1 rejected, as they must be; 1 not rejected, though they must be\n"
         ));
         assert_eq!(summary(&[]), "0 claims: nothing was tried");
@@ -323,10 +303,10 @@ mod tests {
 
     #[test]
     fn colour_changes_nothing_but_colour() {
-        let coloured = table(&example::outcomes(), true);
+        let coloured = table(&example::outcomes(), &[], true);
         let plain =
             [GREEN, RED, YELLOW, RESET].iter().fold(coloured.clone(), |text, code| text.replace(code, ""));
-        assert_eq!(plain, table(&example::outcomes(), false));
+        assert_eq!(plain, table(&example::outcomes(), &[], false));
         assert!(
             coloured.contains("\u{1b}[31mrejected\u{1b}[0m")
                 && coloured.contains("\u{1b}[32mrejected\u{1b}[0m")
@@ -340,7 +320,7 @@ mod tests {
             seen: Some("\u{1b}[2J seen".to_owned()),
             ..example::consistent()
         };
-        assert!(!table(&[outcome], false).contains('\u{1b}'));
+        assert!(!table(&[outcome], &[], false).contains('\u{1b}'));
     }
 
     #[test]

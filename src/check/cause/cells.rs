@@ -1,0 +1,234 @@
+//! Where cells begin and how large they are.
+
+use super::probe::{Probe, SAME};
+use super::slip::{Found, Slip, found, named};
+use crate::stats::seed;
+use crate::threshold::two_scale::Variant;
+use glam::{DVec3, dvec3};
+use rand::rngs::Xoshiro256PlusPlus;
+
+/// Rows along which faces are looked for.
+const ROWS: usize = 96;
+
+/// Places a cell at which a row is asked: a twelfth apart, beginning a twenty-fourth from the whole number, so that faces at
+/// thirds and halves lie between two of them.
+const PLACES: usize = 12;
+
+/// Cells a row.
+const LENGTH: usize = 4;
+
+/// A share of rows with a face at a place where all have one: the hashes of some neighbours are the same by chance.
+const MOST: f64 = 0.95;
+
+/// A share of rows with a face where there is none.
+const FEW: f64 = 0.02;
+
+/// A change within a cell that is no redraw.
+const SMOOTH: f64 = 0.2;
+
+const TRUNCATION: Slip = named("truncation");
+const NEAREST: Slip = named("nearest-cell");
+const NO_FLOOR: Slip = named("no-floor");
+const SMOOTH_NOISE: Slip = named("smooth-noise");
+const PHASE: Slip = named("other-phase");
+
+/// What the faces of cells are.
+#[derive(Default)]
+pub(super) struct Faces {
+    pub found: Option<Found>,
+    /// Octaves by which cells are finer than they should be, where they are cells.
+    pub finer: i32,
+    /// Whether some cells have a face in their middle and others have none, as a function of two cells has.
+    pub of_two: bool,
+}
+
+fn index(rng: &mut Xoshiro256PlusPlus) -> f64 {
+    (seed::uniform01(rng) * 30.0).floor() + 3.0
+}
+
+/// The share of cells of an octave that have a face in each twelfth, and the share of small changes among all.
+fn faces(probe: &Probe<'_>, octave: i32, rng: &mut Xoshiro256PlusPlus) -> ([f64; PLACES], f64) {
+    let mut places = Vec::new();
+    for row in 0..ROWS {
+        let start = dvec3(index(rng), index(rng), index(rng)) * 4.0 + 0.45;
+        let axis = DVec3::AXES[row % 3];
+        let start = start - axis * (0.45 - 0.5 / PLACES as f64);
+        places.extend((0..=LENGTH * PLACES).map(|step| start + axis * (step as f64 / PLACES as f64)));
+    }
+    let values = probe.cells_at(octave, &places);
+    let mut shares = [0.0; PLACES];
+    let (mut changes, mut small) = (0.0, 0.0);
+    for row in values.chunks_exact(LENGTH * PLACES + 1) {
+        for (step, pair) in row.windows(2).enumerate() {
+            if (pair[1] - pair[0]).abs() >= SAME {
+                shares[(step + 1) % PLACES] += 1.0 / (ROWS * LENGTH) as f64;
+                changes += 1.0;
+                small += f64::from((pair[1] - pair[0]).abs() < SMOOTH);
+            }
+        }
+    }
+    (shares, if changes > 0.0 { small / changes } else { 0.0 })
+}
+
+/// Looks where cells begin.
+pub(super) fn look(probe: &Probe<'_>, declared_phase: bool, rng: &mut Xoshiro256PlusPlus) -> Faces {
+    if let Some(exchanged) = exchanged(probe, rng) {
+        return Faces { found: Some(exchanged), ..Faces::default() };
+    }
+    let (even, small) = faces(probe, 0, rng);
+    let (odd, _) = faces(probe, -1, rng);
+    let says = |slip: Slip, shown: String| Faces { found: Some(found(slip, shown)), ..Faces::default() };
+    let changing = |least: f64| even.iter().filter(|&&share| share >= least).count();
+    // Where noise is smooth some of its changes are too small to be seen, and next to a corner most are.
+    let is_smooth = changing(0.7) >= PLACES - 2 && small > 0.7;
+    if changing(MOST) == PLACES || is_smooth {
+        return if is_smooth {
+            says(
+                SMOOTH_NOISE,
+                "within a cell the threshold changes smoothly, at every twelfth of its side".to_owned(),
+            )
+        } else {
+            says(NO_FLOOR, "the threshold is another one at every twelfth of a cell".to_owned())
+        };
+    }
+    if let Some(sliding) = sliding(probe, rng) {
+        return Faces { found: Some(sliding), ..Faces::default() };
+    }
+    let (third, half) = (PLACES / 3, PLACES / 2);
+    let at =
+        |shares: &[f64; PLACES]| -> Vec<usize> { (0..PLACES).filter(|&place| shares[place] > FEW).collect() };
+    let finer = |finer: i32| Faces { finer, ..Faces::default() };
+    let is_about = |share: f64, wanted: f64| (share - wanted).abs() < 0.05;
+    let shares_at = |places: &[usize], least: f64| places.iter().all(|&place| even[place] >= least);
+    let places = at(&even);
+    match places[..] {
+        // Every other cell has no face, or three of four.
+        [only] if is_about(even[only], 0.5) => finer(-1),
+        [only] if is_about(even[only], 0.25) => finer(-2),
+        [only] if even[only] >= MOST => {
+            one_face(probe, declared_phase, [only, at(&odd).first().copied().unwrap_or(only)], rng)
+        }
+        [a, b] if b == a + half && shares_at(&places, MOST) => finer(1),
+        [a, b] if b == a + half && (even[a] < MOST) != (even[b] < MOST) && shares_at(&places, 0.2) => {
+            Faces { of_two: true, ..Faces::default() }
+        }
+        [a, b, c, d] if [b - a, c - b, d - c] == [third - 1; 3] && shares_at(&places, MOST) => finer(2),
+        _ => Faces::default(),
+    }
+}
+
+/// Cells with one face each, at a twelfth of an even and of an odd octave.
+fn one_face(
+    probe: &Probe<'_>,
+    declared_phase: bool,
+    faces: [usize; 2],
+    rng: &mut Xoshiro256PlusPlus,
+) -> Faces {
+    const WHOLE: Slip = named("cells-at-whole-numbers");
+    const THIRD: usize = PLACES / 3;
+    const HALF: usize = PLACES / 2;
+    let says = |slip: Slip, shown: String| Faces { found: Some(found(slip, shown)), ..Faces::default() };
+    let is_nested = matches!(faces, [THIRD, other] | [other, THIRD] if other == 2 * THIRD);
+    if faces == [HALF; 2] {
+        let wide = 100.0 * wide_zero(probe, rng);
+        let shown =
+            format!("cells begin at halves, and {wide:.0} % of {ROWS} cells at zero are twice as wide");
+        return says(NEAREST, shown);
+    }
+    if !is_nested && faces != [0; 2] {
+        return Faces::default();
+    }
+    let zero = zero_cells(probe, rng);
+    if zero >= MOST {
+        let shown = format!(
+            "of {ROWS} pairs of cells at both sides of zero {:.0} % have one threshold",
+            100.0 * zero
+        );
+        return says(TRUNCATION, shown);
+    }
+    match (is_nested, declared_phase) {
+        (true, false) => says(PHASE, "cells begin at thirds of a cell".to_owned()),
+        (false, true) => says(WHOLE, "cells begin at whole numbers, in every octave".to_owned()),
+        (true, true) | (false, false) => Faces::default(),
+    }
+}
+
+/// Whether cells have the very size of the scale: halfway between two octaves faces lie where neither octave has one.
+fn sliding(probe: &Probe<'_>, rng: &mut Xoshiro256PlusPlus) -> Option<Found> {
+    const SLIDING: Slip = named("no-octaves");
+    let between = Probe { lean: 0.5, ..*probe };
+    let (shares, _) = faces(&between, 0, rng);
+    let widest = shares.iter().copied().fold(0.0, f64::max);
+    let everywhere = shares.iter().all(|&share| share > 2.0 * FEW);
+    (everywhere && widest < 0.5).then(|| {
+        let shown = "halfway between two octaves cells begin at any twelfth of those of either octave";
+        found(SLIDING, shown.to_owned())
+    })
+}
+
+/// How often the threshold changes along rows of given length, in a view with given octaves; none where there is no such view.
+fn changes(probe: &Probe<'_>, axis: DVec3, octave: DVec3, rng: &mut Xoshiro256PlusPlus) -> Option<usize> {
+    const STEPS: usize = 128;
+    const LONG: f64 = 4.0;
+    let mut positions = Vec::new();
+    for _ in 0..16 {
+        let start = dvec3(index(rng), index(rng), index(rng)) + 0.003;
+        positions.extend((0..STEPS).map(|step| start + axis * (LONG * step as f64 / STEPS as f64)));
+    }
+    let values = probe.seen(octave, &positions);
+    let of_row = |row: &[f64]| row.windows(2).filter(|pair| (pair[1] - pair[0]).abs() >= SAME).count();
+    (!values.iter().any(|value| value.is_nan())).then(|| values.chunks_exact(STEPS).map(of_row).sum())
+}
+
+/// Whether cells become larger where they should become smaller, or those of one axis where those of another should.
+pub(super) fn inverse(probe: &Probe<'_>, rng: &mut Xoshiro256PlusPlus) -> Option<Found> {
+    const INVERSE: Slip = named("inverse-scale");
+    let [coarse, fine] = [0.0, 3.0].map(|octave| changes(probe, DVec3::X, DVec3::splat(octave), rng));
+    let (coarse, fine) = (coarse?, fine?);
+    (coarse > 0 && 2 * fine < coarse).then(|| {
+        found(
+            INVERSE,
+            format!(
+                "along a row {coarse} thresholds change, and {fine} where derivatives are an eighth as long"
+            ),
+        )
+    })
+}
+
+/// Whether the scales of two axes are exchanged.
+fn exchanged(probe: &Probe<'_>, rng: &mut Xoshiro256PlusPlus) -> Option<Found> {
+    const EXCHANGED: Slip = named("axes-exchanged");
+    if probe.measure.variant != Variant::Anisotropic {
+        return None;
+    }
+    let octave = dvec3(0.0, 3.0, 0.0);
+    let [along_x, along_y] = [DVec3::X, DVec3::Y].map(|axis| changes(probe, axis, octave, rng));
+    let (along_x, along_y) = (along_x?, along_y?);
+    (along_x > 4 * along_y.max(1)).then(|| {
+        found(EXCHANGED, format!("where cells should be an eighth as long along y, {along_x} thresholds change along x and {along_y} along y"))
+    })
+}
+
+/// The share of pairs of places on both sides of zero, each in the first cell, that have one threshold.
+fn zero_cells(probe: &Probe<'_>, rng: &mut Xoshiro256PlusPlus) -> f64 {
+    let pairs: Vec<[DVec3; 2]> = (0..ROWS)
+        .map(|row| {
+            let axis = DVec3::AXES[row % 3];
+            let other = (DVec3::ONE - axis) * (dvec3(index(rng), index(rng), index(rng)) + 0.45);
+            [other + axis * 0.45, other - axis * 0.45]
+        })
+        .collect();
+    probe.share(&pairs)
+}
+
+/// The share of pairs of places that a cell of double width around zero would hold both, a cast after a half was added.
+fn wide_zero(probe: &Probe<'_>, rng: &mut Xoshiro256PlusPlus) -> f64 {
+    let pairs: Vec<[DVec3; 2]> = (0..ROWS)
+        .map(|row| {
+            let axis = DVec3::AXES[row % 3];
+            let other = (DVec3::ONE - axis) * (dvec3(index(rng), index(rng), index(rng)) + 0.2);
+            [other + axis * 0.2, other - axis * 1.2]
+        })
+        .collect();
+    probe.share(&pairs)
+}

@@ -1,0 +1,385 @@
+//! What the hash of a cell depends on.
+
+use super::law::{follows, laws, mean_of_three, occupied, unique};
+use super::probe::{Probe, SAME};
+use super::slip::{Found, Slip, found, named};
+use crate::stats::seed;
+use crate::threshold::real::Real;
+use glam::{DVec3, dvec3};
+use rand::rngs::Xoshiro256PlusPlus;
+
+/// Pairs of cells that a relation is tried on.
+const PAIRS: usize = 192;
+
+/// Cells whose values are counted.
+const CELLS: usize = 4096;
+
+/// A share of pairs with a relation that all have.
+const MOST: f64 = 0.95;
+
+/// The place within a cell at which it is asked: inside of it wherever cells begin.
+const INSIDE: f64 = 0.45;
+
+fn cell(rng: &mut Xoshiro256PlusPlus, reach: f64) -> DVec3 {
+    let mut index = || ((2.0 * seed::uniform01(rng) - 1.0) * reach).floor();
+    dvec3(index(), index(), index())
+}
+
+/// A relation between the cells of a pair: cells that a slip makes one.
+struct Relation {
+    slip: Slip,
+    pair: fn(&mut Xoshiro256PlusPlus) -> [DVec3; 2],
+    shown: &'static str,
+}
+
+fn step(rng: &mut Xoshiro256PlusPlus) -> f64 {
+    (seed::uniform01(rng) * 40.0).floor() + 1.0
+}
+
+fn whole(rng: &mut Xoshiro256PlusPlus) -> DVec3 {
+    cell(rng, 100.0)
+}
+
+fn exclusive(cell: DVec3, bits: i64, axes: [bool; 3]) -> DVec3 {
+    let word = |axis: usize| {
+        let index = cell[axis] as i64;
+        (if axes[axis] { index ^ bits } else { index }) as f64
+    };
+    dvec3(word(0), word(1), word(2))
+}
+
+/// The first that holds is told.
+const RELATIONS: &[Relation] = &[
+    Relation {
+        slip: named("one-threshold-an-object"),
+        pair: |rng| [whole(rng), whole(rng)],
+        shown: "any two cells have one threshold",
+    },
+    Relation {
+        slip: named("without-x"),
+        pair: |rng| {
+            let cell = whole(rng);
+            [cell, cell + DVec3::X * step(rng)]
+        },
+        shown: "cells that differ in x alone have one threshold",
+    },
+    Relation {
+        slip: named("without-y"),
+        pair: |rng| {
+            let cell = whole(rng);
+            [cell, cell + DVec3::Y * step(rng)]
+        },
+        shown: "cells that differ in y alone have one threshold",
+    },
+    Relation {
+        slip: named("bayer-matrix"),
+        pair: |rng| {
+            let cell = whole(rng);
+            [cell, cell + dvec3(16.0, 16.0 * step(rng), step(rng))]
+        },
+        shown: "cells that are multiples of 16 apart along x and y have one threshold, whatever z is",
+    },
+    Relation {
+        slip: named("two-dimensional-hash"),
+        pair: |rng| {
+            let cell = whole(rng);
+            [cell, cell + DVec3::Z * step(rng)]
+        },
+        shown: "cells that differ in z alone have one threshold",
+    },
+    Relation {
+        slip: named("sum-of-coordinates"),
+        pair: |rng| {
+            let (cell, by) = (whole(rng), step(rng));
+            [cell, cell + dvec3(by, -by - 1.0, 1.0)]
+        },
+        shown: "cells of one sum x + y + z have one threshold",
+    },
+    Relation {
+        slip: named("xor-of-coordinates"),
+        pair: |rng| {
+            let (cell, bits) = (whole(rng), step(rng) as i64);
+            [cell, exclusive(cell, bits, [true, true, false])]
+        },
+        shown: "cells of one exclusive or of x and y have one threshold",
+    },
+    Relation {
+        slip: named("mirrored-coordinates"),
+        pair: |rng| {
+            let cell = whole(rng);
+            [cell, -cell - 2.0 * INSIDE]
+        },
+        shown: "places that are opposite across the origin have one threshold",
+    },
+    Relation {
+        slip: named("mirrored-coordinates"),
+        pair: |rng| {
+            let cell = whole(rng);
+            [cell, -cell]
+        },
+        shown: "cells with indices of opposite sign have one threshold",
+    },
+    Relation {
+        slip: named("commuting-coordinates"),
+        pair: |rng| {
+            let cell = whole(rng);
+            [cell, dvec3(cell.y, cell.x, cell.z)]
+        },
+        shown: "the cells x, y and y, x have one threshold",
+    },
+    Relation {
+        slip: named("eight-bit-indices"),
+        pair: |rng| {
+            let far = |rng: &mut Xoshiro256PlusPlus| cell(rng, 100.0).abs() + 600.0;
+            [far(rng), far(rng)]
+        },
+        shown: "cells beyond 500 along every axis have one threshold",
+    },
+    Relation {
+        slip: named("eight-bit-indices"),
+        pair: |rng| {
+            let cell = whole(rng);
+            [cell, cell + 256.0]
+        },
+        shown: "cells that are 256 apart along every axis have one threshold",
+    },
+    Relation {
+        slip: named("sixteen-bit-indices"),
+        pair: |rng| {
+            let far = |rng: &mut Xoshiro256PlusPlus| cell(rng, 100.0).abs() + 80_000.0;
+            [far(rng), far(rng)]
+        },
+        shown: "cells beyond 80,000 along every axis have one threshold",
+    },
+    Relation {
+        slip: named("sixteen-bit-indices"),
+        pair: |rng| {
+            let cell = whole(rng);
+            [cell, cell + 65_536.0]
+        },
+        shown: "cells that are 65,536 apart along every axis have one threshold",
+    },
+    Relation {
+        slip: named("lowest-bit-dropped"),
+        pair: |rng| {
+            let cell = whole(rng);
+            let even = dvec3((cell.x * 0.5).floor() * 2.0, cell.y, cell.z);
+            [even, even + DVec3::X]
+        },
+        shown: "cells 2 i and 2 i + 1 along x have one threshold",
+    },
+    Relation {
+        slip: named("lowest-bit-dropped"),
+        pair: |rng| {
+            let cell = whole(rng);
+            let even = dvec3(cell.x, (cell.y * 0.5).floor() * 2.0, cell.z);
+            [even, even + DVec3::Y]
+        },
+        shown: "cells 2 i and 2 i + 1 along y have one threshold",
+    },
+    Relation {
+        slip: named("lowest-bit-dropped"),
+        pair: |rng| {
+            let cell = whole(rng);
+            let even = dvec3(cell.x, cell.y, (cell.z * 0.5).floor() * 2.0);
+            [even, even + DVec3::Z]
+        },
+        shown: "cells 2 i and 2 i + 1 along z have one threshold",
+    },
+];
+
+/// Looks at what the hash makes of indices.
+///
+/// `is_bent`: the law of single cells is not uniform because of their hash. `has_steps`: thresholds have few values anyway.
+pub(super) fn look(
+    probe: &Probe<'_>,
+    is_bent: bool,
+    has_steps: bool,
+    rng: &mut Xoshiro256PlusPlus,
+) -> Vec<Found> {
+    let at = |pairs: Vec<[DVec3; 2]>| -> Vec<[DVec3; 2]> {
+        pairs.into_iter().map(|pair| pair.map(|cell| cell + INSIDE)).collect()
+    };
+    let relation = RELATIONS.iter().find_map(|Relation { slip, pair, shown }| {
+        let share = probe.share(&at((0..PAIRS).map(|_| pair(rng)).collect()));
+        (share >= MOST).then(|| found(*slip, format!("{shown}: {:.0} % of {PAIRS} pairs", 100.0 * share)))
+    });
+    let relation = relation
+        .or_else(|| small_factor(probe, rng))
+        .or_else(|| added(probe, rng))
+        .or_else(|| opposite(probe, rng));
+    let law = law(probe, is_bent, has_steps, rng);
+    // The law of a mean is that of its relation.
+    let is_told = |law: &Found| relation.as_ref().is_some_and(|relation| relation.slip == law.slip);
+    let law = law.filter(|law| !is_told(law));
+    let mut all: Vec<Found> = relation.into_iter().chain(law).collect();
+    if let [relation, law] = &mut all[..]
+        && matches!(relation.slip.name, "eight-bit-indices" | "bayer-matrix")
+        && law.slip.name == "eight-bit-hash"
+    {
+        const TABLE: Slip = named("permutation-table");
+        let slip = if relation.slip.name == "bayer-matrix" { relation.slip } else { TABLE };
+        return vec![found(slip, format!("{}; {}", relation.shown, law.shown))];
+    }
+    // Coordinates that end do so at a place, and indices at a number.
+    if let [relation] = &mut all[..]
+        && relation.slip.name == "eight-bit-indices"
+        && relation.shown.starts_with("cells beyond")
+    {
+        const END: Slip = named("coordinates-end");
+        let far = |rng: &mut Xoshiro256PlusPlus| cell(rng, 100.0).abs() + 600.0 + INSIDE;
+        let places: Vec<DVec3> = (0..PAIRS).map(|_| far(rng)).collect();
+        if unique(&probe.cells_at(3, &places)).len() > PAIRS / 2 {
+            relation.slip = END;
+        }
+    }
+    all
+}
+
+/// Whether the hash is fract(43758.5453 sin(dot)), of three coordinates or of two and once more of that and the third, or another
+/// one of which opposite cells add up to one.
+fn opposite(probe: &Probe<'_>, rng: &mut Xoshiro256PlusPlus) -> Option<Found> {
+    const ODD: Slip = named("fract-sin-dot");
+    const TEN: Slip = named("sine-times-ten");
+    const OPPOSITE: Slip = named("opposite-of-its-mirror");
+    /// What the third coordinate is multiplied by in the copies of this hash.
+    const THIRD: [f64; 6] = [37.719, 45.164, 45.5432, 144.7272, 53.539, 94.673];
+    let cells: Vec<DVec3> = (0..PAIRS).map(|_| whole(rng)).collect();
+    let places: Vec<DVec3> = cells.iter().map(|&cell| cell + INSIDE).collect();
+    let values = probe.cells(&places);
+    let like = |hash: &dyn Fn([f64; 3]) -> f64| {
+        let is_so = |(cell, value): &(&DVec3, &f64)| {
+            let difference = (hash(cell.to_array()) - **value).abs();
+            difference < SAME || difference > 1.0 - SAME
+        };
+        cells.iter().zip(&values).filter(is_so).count()
+    };
+    for factor in [43_758.545_3, 43_758.545_312_3, 10.0] {
+        let of_two = |x: f32, y: f32| Real::fract(Real::sin(x * 12.9898 + y * 78.233) * factor as f32);
+        let nested = like(&|cell| {
+            let [x, y, z] = cell.map(|index| index as f32);
+            f64::from(of_two(of_two(x, y), z))
+        });
+        let flat = THIRD.map(|third| {
+            let in_f32 = like(&|cell| {
+                let [x, y, z] = cell.map(|index| index as f32);
+                let dot = x * 12.9898 + y * 78.233 + z * third as f32;
+                f64::from(Real::fract(Real::sin(dot) * factor as f32))
+            });
+            let in_f64 =
+                like(&|[x, y, z]| Real::fract(Real::sin(x * 12.9898 + y * 78.233 + z * third) * factor));
+            in_f32.max(in_f64)
+        });
+        let count = flat.into_iter().fold(nested, usize::max);
+        if 2 * count > PAIRS {
+            let shown = format!("{count} of {PAIRS} cells have the value of fract({factor} sin(dot))");
+            return Some(found(if factor < 100.0 { TEN } else { ODD }, shown));
+        }
+    }
+    let pairs: Vec<_> = cells.iter().map(|&cell| [cell + INSIDE, INSIDE - cell]).collect();
+    let share = probe.share_of(&pairs, |a, b| (a + b - 1.0).abs() < SAME);
+    let shown =
+        format!("the thresholds of opposite cells add up to 1: {:.0} % of {PAIRS} pairs", 100.0 * share);
+    (share >= MOST).then(|| found(OPPOSITE, shown))
+}
+
+/// Whether each coordinate has a hash of its own that is added to those of the others.
+fn added(probe: &Probe<'_>, rng: &mut Xoshiro256PlusPlus) -> Option<Found> {
+    const SUM: Slip = named("sum-of-three-hashes");
+    const MEAN: Slip = named("mean-of-three-hashes");
+    const CONGRUENCE: Slip = named("congruential-hash");
+    let mut places = Vec::new();
+    for _ in 0..PAIRS {
+        let (cell, by_x, by_y) = (whole(rng) + INSIDE, DVec3::X * step(rng), DVec3::Y * step(rng));
+        places.extend([cell, cell + by_x, cell + by_y, cell + by_x + by_y]);
+    }
+    let values = probe.cells(&places);
+    let share = |holds: fn(f64) -> bool| {
+        let holding = values.chunks_exact(4).filter(|v| holds(v[1] - v[0] - (v[3] - v[2]))).count();
+        holding as f64 / PAIRS as f64
+    };
+    let plainly = share(|difference| difference.abs() < SAME);
+    let wrapped = share(|difference| (difference - difference.round()).abs() < SAME);
+    let shown = |share: f64| {
+        format!(
+            "a step in x changes the threshold by as much whatever y is: {:.0} % of {PAIRS} pairs",
+            100.0 * share
+        )
+    };
+    if plainly >= MOST {
+        return Some(found(MEAN, shown(plainly)));
+    }
+    if wrapped < MOST {
+        return None;
+    }
+    // A step of one along x is the same number everywhere.
+    let pairs: Vec<_> = (0..PAIRS)
+        .map(|_| {
+            let cell = whole(rng) + INSIDE;
+            [cell, cell + DVec3::X]
+        })
+        .collect();
+    let values = probe.cells(pairs.as_flattened());
+    let step = |pair: &[f64]| {
+        let difference = pair[1] - pair[0];
+        difference - difference.floor()
+    };
+    let first = step(&values[..2]);
+    let alike = values.chunks_exact(2).filter(|pair| (step(pair) - first).abs() < 2.0 * SAME).count();
+    if alike as f64 >= 0.9 * PAIRS as f64 {
+        return Some(found(
+            CONGRUENCE,
+            format!("a step of one in x adds {first:.3}: {alike} of {PAIRS} pairs"),
+        ));
+    }
+    Some(found(SUM, shown(wrapped)))
+}
+
+/// Whether there are few values, or a law that shows through.
+fn law(probe: &Probe<'_>, is_bent: bool, has_steps: bool, rng: &mut Xoshiro256PlusPlus) -> Option<Found> {
+    const EIGHT: Slip = named("eight-bit-hash");
+    const SIGNED: Slip = named("signed-hash");
+    const MEAN: Slip = named("mean-of-three-hashes");
+    let places: Vec<_> = (0..CELLS).map(|_| cell(rng, 1000.0) + INSIDE).collect();
+    let values = probe.cells(&places);
+    // A negative value is clamped from below, or its square by the weight of an octave that has none from above.
+    let inner: Vec<f64> = values.iter().copied().filter(|value| (2.0e-6..1.0).contains(value)).collect();
+    let ends = CELLS - inner.len();
+    let is_half = (0.4..0.6).contains(&(ends as f64 / CELLS as f64)) && follows(&inner, |value| value);
+    if is_half || values.iter().any(|&value| value < -0.2) {
+        let shown = format!("{ends} of {CELLS} cells have no threshold inside of (0, 1)");
+        return Some(found(SIGNED, shown));
+    }
+    let count = occupied(&values);
+    if !has_steps && count <= 600 {
+        return Some(found(EIGHT, format!("{CELLS} cells have thresholds in {count} of 4096 steps")));
+    }
+    if !is_bent {
+        return None;
+    }
+    if follows(&values, mean_of_three) {
+        return Some(found(MEAN, "thresholds of single cells have the law of a mean of three".to_owned()));
+    }
+    laws(&values).into_iter().find_map(|law| Some(found(law.slip?, law.shown)))
+}
+
+/// Whether the hash is the paper's, with a smaller factor before the fraction is taken.
+fn small_factor(probe: &Probe<'_>, rng: &mut Xoshiro256PlusPlus) -> Option<Found> {
+    const TEN: Slip = named("sine-times-ten");
+    let cells: Vec<DVec3> = (0..PAIRS).map(|_| whole(rng)).collect();
+    let places: Vec<DVec3> = cells.iter().map(|&cell| cell + INSIDE).collect();
+    let values = probe.cells(&places);
+    [1.0, 10.0, 100.0].into_iter().find_map(|factor: f32| {
+        let of_two = |x: f32, y: f32| {
+            let sines = Real::sin(17.0 * x + 0.1 * y) * (0.1 + Real::sin(13.0 * y + x).abs());
+            Real::fract(factor * sines)
+        };
+        let is_so = |(cell, value): &(&DVec3, &f64)| {
+            let [x, y, z] = cell.to_array().map(|index| index as f32);
+            (f64::from(of_two(of_two(x, y), z)) - **value).abs() < SAME
+        };
+        let count = cells.iter().zip(&values).filter(is_so).count();
+        let shown = format!("{count} of {PAIRS} cells have the value of a sine times {factor}");
+        (2 * count > PAIRS).then(|| found(TEN, shown))
+    })
+}
