@@ -66,7 +66,7 @@ fn told(numbers: core::ops::RangeInclusive<u32>) -> ([f64; 2], String) {
     let (mut first, mut both, mut of_two, mut missed) = (0_u32, 0_u32, 0_u32, String::new());
     for (port, found) in ports.iter().zip(&found) {
         let has = |name: &&str| port.slips.iter().any(|slip| slip == name);
-        let is_first = found.first().is_some_and(|name| has(&name));
+        let is_first = found.first().map_or(port.slips.is_empty(), has);
         let is_all = found.len() == port.slips.len() && found.iter().all(|name| has(&name));
         first += u32::from(is_first);
         if port.slips.len() == 2 {
@@ -81,7 +81,7 @@ fn told(numbers: core::ops::RangeInclusive<u32>) -> ([f64; 2], String) {
 
 #[test]
 fn ports_are_told_their_slips() {
-    for numbers in [1..=60, 61..=80] {
+    for numbers in [1..=60, 61..=80, 201..=224] {
         let ([first, both], missed) = told(numbers.clone());
         assert!(first >= 0.9 && both >= 0.6, "{numbers:?}: {first:.2}, both of two {both:.2}\n{missed}");
     }

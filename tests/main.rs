@@ -58,4 +58,6 @@ mod scenes_page;
 mod techniques;
 
 #[cfg(feature = "cli")]
+mod annotated;
+#[cfg(feature = "cli")]
 mod cli;

@@ -69,6 +69,7 @@ Examples:
   hashed-alpha check my.glsl --function alpha_threshold --set hash_scale=2 --on device-model
   hashed-alpha check old.glsl#getThreshold new.wgsl#threshold --set old.glsl#u_scale=0.1,0.2,0.3
   hashed-alpha check paper --json --no-report | jq 'select(.verdict == \"rejected\")'
+  hashed-alpha check my.glsl --format sarif --no-report > my.sarif
   hashed-alpha check paper --suite paper
   hashed-alpha check paper --only stability --only range --budget quick
   hashed-alpha check paper --expect findings.toml
@@ -94,8 +95,12 @@ pub struct CheckArgs {
     /// Try the paper's listings to the letter: the same as the subject `paper`
     #[arg(long, conflicts_with = "subjects")]
     pub literal: bool,
-    /// Print JSON Lines in place of the table
-    #[arg(long)]
+    /// What to print: a table, JSON Lines, SARIF for a viewer of code, or commands for a workflow on GitHub, which show the cause
+    /// at the line of the function
+    #[arg(long, value_name = "FORMAT", default_value = "text", value_parser = one_of(Format::ALL, Format::name))]
+    pub format: Format,
+    /// Print JSON Lines in place of the table: the same as `--format json`
+    #[arg(long, conflicts_with = "format")]
     pub json: bool,
     /// Seed of every random number of the run
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = seed, allow_negative_numbers = true)]
@@ -128,6 +133,41 @@ pub struct CheckArgs {
     /// Double the samples no more than K times
     #[arg(long, value_name = "K", requires = "until_failure", value_parser = clap::value_parser!(u32).range(0..=63))]
     pub doublings: Option<u32>,
+}
+
+/// What a verdict is written in.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Format {
+    /// A table for a terminal.
+    #[default]
+    Text,
+    /// JSON Lines, one object a claim.
+    Json,
+    /// SARIF 2.1.0.
+    Sarif,
+    /// Commands of a workflow on GitHub.
+    Github,
+}
+
+impl Format {
+    const ALL: [Self; 4] = [Self::Text, Self::Json, Self::Sarif, Self::Github];
+
+    /// The word by which it is asked for.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Text => "text",
+            Self::Json => "json",
+            Self::Sarif => "sarif",
+            Self::Github => "github",
+        }
+    }
+}
+
+impl CheckArgs {
+    /// The format that was asked for in either way.
+    pub fn written_in(&self) -> Format {
+        if self.json { Format::Json } else { self.format }
+    }
 }
 
 /// Where a shader runs.

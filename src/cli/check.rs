@@ -1,6 +1,6 @@
 //! `check`: every claim on every subject that was asked for, judged against what is known.
 
-use super::args::CheckArgs;
+use super::args::{CheckArgs, Format};
 use super::failure::Failure;
 use super::subjects::{self, Asked, Place};
 use super::{Ending, drivers, growth, known, output, shader_files};
@@ -10,6 +10,7 @@ use hashed_alpha::check::growth::Plan;
 use hashed_alpha::check::known::{Known, OF_THE_LISTINGS, mark};
 use hashed_alpha::check::outcome::worst;
 use hashed_alpha::check::{self, Claim, Draw, Outcome, Standing, Subject, Suite, Verdict};
+use hashed_alpha::report::annotations::{self, Written};
 use hashed_alpha::report::by_model::by_model;
 use hashed_alpha::report::cause::causes;
 use hashed_alpha::report::html::Run;
@@ -33,6 +34,7 @@ pub fn run(args: &CheckArgs) -> Result<Ending, Failure> {
     drivers::silence_for(typed, &args.shader);
     let asked = subjects::subjects(typed, &args.shader)?;
     let models = under_models(&asked);
+    let written_in: Vec<Written> = asked.iter().filter_map(written).collect();
     let (subjects, is_file): (Vec<Subject<'static>>, Vec<bool>) =
         asked.into_iter().map(|asked| (asked.subject, asked.family.is_none())).unzip();
     let claims = chosen_claims(&args.only)?;
@@ -46,6 +48,10 @@ pub fn run(args: &CheckArgs) -> Result<Ending, Failure> {
     let reach = args.suite.reach();
     let draw = Draw { seed: args.seed, budget: args.budget, reach, ..Draw::default() };
     if args.until_failure {
+        if let format @ (Format::Sarif | Format::Github) = args.written_in() {
+            let message = format!("--until-failure writes text or json, not {}", format.name());
+            return Err(Failure::Usage(message));
+        }
         return growth::run(args, Plan::new(&claims, subjects, draw, args.doublings));
     }
     let mut outcomes = tried(&claims, &subjects, &draw);
@@ -64,18 +70,26 @@ pub fn run(args: &CheckArgs) -> Result<Ending, Failure> {
     mark(&mut outcomes, &known);
     let diagnoses = diagnoses(&outcomes, &subjects);
     if let Some(folder) = folder {
-        directory::write_report(folder, &outcomes, &diagnoses, &this_run(args.seed))?;
+        directory::write_report(folder, &outcomes, &diagnoses, &written_in, &this_run(args.seed))?;
         output::remark("note", format_args!("the report is in {}", folder.join("index.html").display()));
     }
     let results = &mut output::results();
-    let written = if args.json {
-        json::write_json_lines(&outcomes, &diagnoses, &mut *results)
-    } else {
-        let mut tables = text::table(&outcomes, &diagnoses, output::takes_colour());
-        tables.extend(models.iter().map(|(name, models)| by_model(&outcomes, name, models)));
-        // The first line has long left the screen of a terminal.
-        let again = if output::is_terminal() { causes(&diagnoses, text::COLUMNS) } else { String::new() };
-        results.write_all(tables.as_bytes()).and_then(|()| results.write_all(again.as_bytes()))
+    let written = match args.written_in() {
+        Format::Json => json::write_json_lines(&outcomes, &diagnoses, &mut *results),
+        Format::Sarif => writeln!(results, "{:#}", annotations::sarif(&outcomes, &diagnoses, &written_in)),
+        Format::Github => {
+            let commands = annotations::github(&diagnoses, &written_in);
+            writeln!(results, "{commands}{}", text::summary(&outcomes))
+        }
+        Format::Text => {
+            let mut tables = text::table(&outcomes, &diagnoses, output::takes_colour());
+            tables.extend(models.iter().map(|(name, models)| by_model(&outcomes, name, models)));
+            // The first line has long left the screen of a terminal.
+            if output::is_terminal() {
+                tables += &causes(&diagnoses, text::COLUMNS);
+            }
+            results.write_all(tables.as_bytes())
+        }
     };
     written.and_then(|()| results.flush()).map_err(Failure::Output)?;
 
@@ -85,6 +99,12 @@ pub fn run(args: &CheckArgs) -> Result<Ending, Failure> {
         Standing::Unanswered => Ending::NoVerdict,
         Standing::Known | Standing::AsExpected | Standing::NotApplicable => Ending::Consistent,
     })
+}
+
+/// Where a subject is written.
+fn written(asked: &Asked) -> Option<Written> {
+    let (path, place) = asked.written.clone()?;
+    Some(Written { subject: asked.subject.name.clone(), path, place })
 }
 
 /// The names of what was asked for under models of devices, each with the models and what it is called under them.

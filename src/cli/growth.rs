@@ -1,6 +1,6 @@
 //! `check --until-failure`: the samples of every claim are doubled until it fails.
 
-use super::args::CheckArgs;
+use super::args::{CheckArgs, Format};
 use super::failure::Failure;
 use super::{Ending, output};
 use hashed_alpha::check::growth::{End, Plan, Step, grow};
@@ -84,10 +84,9 @@ fn finish(args: &CheckArgs, rows: &[Row<'_>]) -> Result<Ending, Failure> {
     write_atomically(&picture, growth::figure(rows).as_bytes())?;
     output::remark("note", format_args!("the figure is {}", picture.display()));
     let results = &mut output::results();
-    let written = if args.json {
-        growth::write_json_lines(rows, args.seed, &mut *results)
-    } else {
-        results.write_all(growth::table(rows).as_bytes())
+    let written = match args.written_in() {
+        Format::Json => growth::write_json_lines(rows, args.seed, &mut *results),
+        Format::Text | Format::Sarif | Format::Github => results.write_all(growth::table(rows).as_bytes()),
     };
     written.and_then(|()| results.flush()).map_err(Failure::Output)?;
     let any = |end: End| rows.iter().any(|row| row.end == Some(end));

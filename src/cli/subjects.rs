@@ -102,6 +102,8 @@ pub struct Asked {
     pub place: Place,
     /// Its family; none for a file.
     pub family: Option<Family>,
+    /// Path of its file, with line and column of its function where they are known; none for a subject of this program.
+    pub written: Option<(String, Option<[usize; 2]>)>,
 }
 
 /// Returns the subjects that were typed, each once: built-in ones by their name or its part before a colon, `gpu:` before it
@@ -151,6 +153,7 @@ fn hash(name: &str) -> Result<Vec<Asked>, Failure> {
         name: name.clone(),
         place: Place::Rust,
         family: Some(Family::Hash),
+        written: None,
     };
     Ok(precisions.iter().map(asked).collect())
 }
@@ -170,7 +173,7 @@ fn built_in(name: &str, on: On, args: &ShaderArgs) -> Result<Option<Vec<Asked>>,
     if matches!(on, On::Auto | On::Cpu) {
         let here = |subject: Subject<'static>| {
             let name = subject.name.clone();
-            Asked { subject, name, place: Place::Rust, family: Some(family) }
+            Asked { subject, name, place: Place::Rust, family: Some(family), written: None }
         };
         return Ok(Some(all.into_iter().map(here).collect()));
     }
@@ -212,8 +215,11 @@ fn file(typed: &ShaderFile<'_>, args: &ShaderArgs) -> Result<Vec<Asked>, Failure
         let said: Vec<_> = shader.taken.iter().map(ToString::to_string).collect();
         output::remark("note", format_args!("in {} {}", typed.name(), said.join(", ")));
     }
+    let place = shader.defined_at.map(|place| [place.line, place.column]);
+    let written = Some((typed.path.to_owned(), place));
     if shader.is_hash() {
-        return own_hash(&typed.name(), &shader, args);
+        let hashes = own_hash(&typed.name(), &shader, args)?;
+        return Ok(hashes.into_iter().map(|asked| Asked { written: written.clone(), ..asked }).collect());
     }
     let preset = Robust::new(args.variant).join;
     let claims = Claimed {
@@ -230,7 +236,7 @@ fn file(typed: &ShaderFile<'_>, args: &ShaderArgs) -> Result<Vec<Asked>, Failure
         // A device does not tell.
         remarks.iter().for_each(|remark| output::remark("note", remark));
     }
-    Ok(subjects)
+    Ok(subjects.into_iter().map(|asked| Asked { written: written.clone(), ..asked }).collect())
 }
 
 /// Puts a shader's hash where it is wanted: integers are the same everywhere, so that the interpreter stands for every device.
@@ -241,7 +247,8 @@ fn own_hash(name: &str, shader: &OwnShader, args: &ShaderArgs) -> Result<Vec<Ask
         return Err(Failure::Usage(message));
     }
     let subject = shaders::interpreted_hash(name, shader, DeviceModel::ACCURATE)?;
-    Ok(vec![Asked { subject, name: name.to_owned(), place: Place::Interpreter, family: Some(Family::Hash) }])
+    let (name, place, family) = (name.to_owned(), Place::Interpreter, Some(Family::Hash));
+    Ok(vec![Asked { subject, name, place, family, written: None }])
 }
 
 /// Runs a few fragments in the interpreter: an endless loop comes to light there, before the first claim; drivers hang on
@@ -303,7 +310,7 @@ fn placed(
         subject.nested_phase = claims.nested_phase;
         subject.hash_scale = claims.hash_scale;
         subject.frames = claims.frames;
-        Asked { subject, name: name.to_owned(), place, family }
+        Asked { subject, name: name.to_owned(), place, family, written: None }
     };
     Ok(subjects.into_iter().map(claiming).collect())
 }

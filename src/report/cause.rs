@@ -1,6 +1,6 @@
 //! Why a subject is rejected, in a few sentences.
 
-use super::text::wrap;
+use super::wrap::wrap;
 use crate::check::diagnosis::Diagnosis;
 
 /// What is said of a subject that has no thresholds.

@@ -1,5 +1,6 @@
-//! A report as a directory: `check.jsonl`, `index.html` and a picture for every outcome that has evidence.
+//! A report as a directory: `check.jsonl`, `check.sarif`, `index.html` and a picture for every outcome that has evidence.
 
+use super::annotations::{Written, sarif};
 use super::figure::evidence::evidence;
 use super::html::{self, Run};
 use super::json::write_json_lines;
@@ -39,7 +40,7 @@ pub enum ReportError {
 const MARK: &str = "<!-- a picture of a hashed-alpha report -->\n";
 
 /// Writes a report into a directory and returns the files that it wrote: pictures in the order of the outcomes, then
-/// `check.jsonl`, then `index.html`.
+/// `check.jsonl`, `check.sarif`, then `index.html`. `written_in` says where subjects are written, for the second.
 ///
 /// Makes the directory where it is missing. Each file is complete or not there (see [`write_atomically`]), and the
 /// page comes last. Pictures that an earlier report left in the directory and this one does not have are removed;
@@ -52,6 +53,7 @@ pub fn write_report(
     dir: &Path,
     outcomes: &[Outcome],
     diagnoses: &[Diagnosis],
+    written_in: &[Written],
     run: &Run,
 ) -> Result<Vec<PathBuf>, ReportError> {
     fs::create_dir_all(dir).map_err(|source| ReportError::File {
@@ -78,6 +80,10 @@ pub fn write_report(
     })?;
     write_atomically(&data, &lines)?;
     written.push(data);
+    let annotations = dir.join("check.sarif");
+    let sarif = format!("{:#}\n", sarif(outcomes, diagnoses, written_in));
+    write_atomically(&annotations, sarif.as_bytes())?;
+    written.push(annotations);
     let index = dir.join("index.html");
     let page = html::page(outcomes, &names, diagnoses, run)
         .map_err(|source| ReportError::Page { path: index.clone(), source })?;
@@ -230,9 +236,10 @@ mod tests {
     fn report_holds_lines_page_and_pictures() {
         let root = tempfile::tempdir().unwrap();
         let dir = root.path().join("new").join("report");
-        let written = write_report(&dir, &example::outcomes(), &[], &run()).unwrap();
+        let written = write_report(&dir, &example::outcomes(), &[], &[], &run()).unwrap();
         let expected = [
             "check.jsonl",
+            "check.sarif",
             "independence.neighbours--specimen-raw-hash--f32.svg",
             "index.html",
             "stability.translate--script-alert-1-script-co--f32.svg",
@@ -245,21 +252,22 @@ mod tests {
             assert!(page.contains(&format!("src=\"{picture}\"")), "{picture}");
         }
         let bytes: Vec<_> = written.iter().map(|path| fs::read(path).unwrap()).collect();
-        write_report(&dir, &example::outcomes(), &[], &run()).unwrap();
+        write_report(&dir, &example::outcomes(), &[], &[], &run()).unwrap();
         assert_eq!(bytes, written.iter().map(|path| fs::read(path).unwrap()).collect::<Vec<_>>());
     }
 
     #[test]
     fn stale_pictures_go_and_foreign_files_stay() {
         let root = tempfile::tempdir().unwrap();
-        write_report(root.path(), &example::outcomes(), &[], &run()).unwrap();
+        write_report(root.path(), &example::outcomes(), &[], &[], &run()).unwrap();
         for foreign in ["a--b--c.svg", "notes.txt", "photo.svg"] {
             fs::write(root.path().join(foreign), "<svg></svg>").unwrap();
         }
-        write_report(root.path(), &example::outcomes()[..1], &[], &run()).unwrap();
+        write_report(root.path(), &example::outcomes()[..1], &[], &[], &run()).unwrap();
         let expected = [
             "a--b--c.svg",
             "check.jsonl",
+            "check.sarif",
             "index.html",
             "notes.txt",
             "photo.svg",
@@ -327,7 +335,7 @@ mod tests {
         let root = tempfile::tempdir().unwrap();
         let file = root.path().join("file");
         fs::write(&file, "").unwrap();
-        let error = write_report(&file.join("report"), &[], &[], &run()).unwrap_err();
+        let error = write_report(&file.join("report"), &[], &[], &[], &run()).unwrap_err();
         assert!(error.to_string().contains("report"), "{error}");
     }
 

@@ -1,7 +1,8 @@
 //! Samples until failure: as a table, as JSON Lines, as a figure, and as the state from which a run is continued.
 
 use super::figure::until_failure::{FailureBar, until_failure};
-use super::text::{COLUMNS, number, wrap};
+use super::text::{COLUMNS, number};
+use super::wrap::wrap;
 use crate::check::growth::{End, Plan, Step, course, fingerprint};
 use crate::check::{Claim, Conclusion, Subject};
 use serde::{Deserialize, Serialize};

@@ -17,7 +17,10 @@
 //! own making, printing, clocks. May import every wing but `cli`; only the command line and the plots import it.
 
 #[cfg(feature = "cli")]
+pub mod annotations;
+#[cfg(feature = "cli")]
 pub mod by_model;
+#[cfg(feature = "cli")]
 pub mod cause;
 #[cfg(feature = "cli")]
 pub mod cost;
@@ -37,6 +40,8 @@ pub mod sampled;
 pub mod study;
 #[cfg(feature = "cli")]
 pub mod text;
+#[cfg(feature = "cli")]
+mod wrap;
 
 #[cfg(all(test, feature = "cli"))]
 mod example;

@@ -2,6 +2,7 @@
 
 use super::cause::causes;
 use super::sampled;
+use super::wrap::wrap;
 use crate::check::diagnosis::Diagnosis;
 use crate::check::{Outcome, Standing, Verdict};
 use std::fmt::Write as _;
@@ -206,24 +207,6 @@ fn push_finding(text: &mut String, outcome: &Outcome, paint: Option<&str>) {
     }
 }
 
-/// Breaks a text between words; a word that is longer than the line is broken too.
-pub(super) fn wrap(text: &str, width: usize) -> Vec<String> {
-    let mut lines = vec![String::new()];
-    for word in text.split_whitespace() {
-        let pieces: Vec<char> = word.chars().filter(|c| !c.is_control()).collect();
-        for piece in pieces.chunks(width) {
-            let last = lines.last_mut().expect("there is a line");
-            let used = last.chars().count();
-            if used > 0 && used + 1 + piece.len() > width {
-                lines.push(piece.iter().collect());
-            } else {
-                last.extend((used > 0).then_some(' ').into_iter().chain(piece.iter().copied()));
-            }
-        }
-    }
-    lines
-}
-
 fn push_line(text: &mut String, line: &str) {
     writeln!(text, "{line}").expect("writing into memory cannot fail");
 }
@@ -347,7 +330,5 @@ mod tests {
     #[test]
     fn long_names_keep_both_ends() {
         assert_eq!(cut("a/very/long/path.wgsl", 12), "a/very….wgsl");
-        assert_eq!(wrap("aaaa bb cc", 4), ["aaaa", "bb", "cc"]);
-        assert_eq!(wrap("aaaaaa", 4), ["aaaa", "aa"]);
     }
 }

@@ -201,12 +201,24 @@ fn exchanged(probe: &Probe<'_>, rng: &mut Xoshiro256PlusPlus) -> Option<Found> {
     if probe.measure.variant != Variant::Anisotropic {
         return None;
     }
-    let octave = dvec3(0.0, 3.0, 0.0);
-    let [along_x, along_y] = [DVec3::X, DVec3::Y].map(|axis| changes(probe, axis, octave, rng));
-    let (along_x, along_y) = (along_x?, along_y?);
-    (along_x > 4 * along_y.max(1)).then(|| {
-        found(EXCHANGED, format!("where cells should be an eighth as long along y, {along_x} thresholds change along x and {along_y} along y"))
-    })
+    const NAMES: [&str; 3] = ["x", "y", "z"];
+    for (fine, axis) in DVec3::AXES.into_iter().enumerate() {
+        let counts = DVec3::AXES.map(|along| changes(probe, along, 3.0 * axis, rng));
+        let [Some(x), Some(y), Some(z)] = counts else { return None };
+        let counts = [x, y, z];
+        let others = (0..3).filter(|&other| other != fine);
+        if let Some(most) = others.max_by_key(|&other| counts[other])
+            && counts[most] > 4 * counts[fine].max(1)
+        {
+            let [along, beside] = [most, fine].map(|axis| (counts[axis], NAMES[axis]));
+            let shown = format!(
+                "where cells should be an eighth as long along {}, {} thresholds change along {} and {} along {}",
+                beside.1, along.0, along.1, beside.0, beside.1
+            );
+            return Some(found(EXCHANGED, shown));
+        }
+    }
+    None
 }
 
 /// The share of pairs of places on both sides of zero, each in the first cell, that have one threshold.

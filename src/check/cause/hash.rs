@@ -212,6 +212,9 @@ pub(super) fn look(
     // The law of a mean is that of its relation.
     let is_told = |law: &Found| relation.as_ref().is_some_and(|relation| relation.slip == law.slip);
     let law = law.filter(|law| !is_told(law));
+    // Odd hashes are often the smaller part of what is wrong with a hash.
+    let relation =
+        relation.filter(|relation| law.is_none() || relation.slip.name != "opposite-of-its-mirror");
     let mut all: Vec<Found> = relation.into_iter().chain(law).collect();
     if let [relation, law] = &mut all[..]
         && matches!(relation.slip.name, "eight-bit-indices" | "bayer-matrix")

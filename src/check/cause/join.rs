@@ -12,8 +12,8 @@ pub(super) struct Sight {
     pub weight: f64,
     /// The octave that is nearest along each axis, and the one above it.
     pub nearest: [f64; 2],
-    /// Cells per unit along an axis.
-    pub scale: f64,
+    /// The same where it is taken of the scale and not of its logarithm.
+    pub of_scale: f64,
 }
 
 /// A way of joining.
@@ -48,14 +48,8 @@ pub(super) const FORMS: &[Form] = &[
         let linear = libm::exp2(s.weight) - 1.0;
         (mixed(s.alone[1], s.alone[2], linear), linear)
     }),
-    form("weight-of-the-scale", |s| {
-        let weight = s.scale - s.scale.floor();
-        (mixed(s.alone[1], s.alone[2], weight), weight)
-    }),
-    form("weight-of-the-scale", |s| {
-        let weight = s.scale - s.scale.floor();
-        (mixed(s.alone[1], s.alone[2], weight), s.weight)
-    }),
+    form("weight-of-the-scale", |s| (mixed(s.alone[1], s.alone[2], s.of_scale), s.of_scale)),
+    form("weight-of-the-scale", |s| (mixed(s.alone[1], s.alone[2], s.of_scale), s.weight)),
     form("smoothstep-weight", |s| {
         let smooth = s.weight * s.weight * (3.0 - 2.0 * s.weight);
         (mixed(s.alone[1], s.alone[2], smooth), s.weight)

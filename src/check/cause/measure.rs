@@ -10,8 +10,6 @@ use glam::{DVec3, dvec3};
 struct Size {
     slip: Option<Slip>,
     of: fn(DVec3, DVec3) -> DVec3,
-    /// Which component of the derivatives each axis takes.
-    axes: [usize; 3],
 }
 
 /// A way of making a scale out of a size, given the numerator of the variant and the hash scale.
@@ -28,14 +26,12 @@ struct Logarithm {
     per_octave: f64,
 }
 
-const AXES: [usize; 3] = [0, 1, 2];
-
 const fn size(slip: &'static str, of: fn(DVec3, DVec3) -> DVec3) -> Size {
-    Size { slip: Some(named(slip)), of, axes: AXES }
+    Size { slip: Some(named(slip)), of }
 }
 
 const ISOTROPIC: &[Size] = &[
-    Size { slip: None, of: |x, y| DVec3::splat(x.length().max(y.length())), axes: AXES },
+    Size { slip: None, of: |x, y| DVec3::splat(x.length().max(y.length())) },
     size("dfdx-twice", |x, _| DVec3::splat(x.length())),
     size("min-for-max", |x, y| DVec3::splat(x.length().min(y.length()))),
     size("fwidth", |x, y| DVec3::splat((x.abs() + y.abs()).length())),
@@ -47,20 +43,12 @@ const ISOTROPIC: &[Size] = &[
 ];
 
 const ANISOTROPIC: &[Size] = &[
-    Size { slip: None, of: |x, y| x.abs().max(y.abs()), axes: AXES },
+    Size { slip: None, of: |x, y| x.abs().max(y.abs()) },
     size("dfdx-twice", |x, _| x.abs()),
     size("min-for-max", |x, y| x.abs().min(y.abs())),
     size("fwidth", |x, y| x.abs() + y.abs()),
     size("length-of-sum", |x, y| (x + y).abs()),
     size("sum-of-lengths", |x, y| dvec3(x.x.hypot(y.x), x.y.hypot(y.y), x.z.hypot(y.z))),
-    Size {
-        slip: Some(named("axes-exchanged")),
-        of: |x, y| {
-            let sound = x.abs().max(y.abs());
-            dvec3(sound.y, sound.x, sound.z)
-        },
-        axes: [1, 0, 2],
-    },
 ];
 
 const SCALES: &[Scale] = &[
@@ -174,11 +162,8 @@ impl Measure {
 
     /// Derivatives at which the logarithm of the scale is a given one; none where there are none.
     pub fn view(&self, log_scale: DVec3) -> Option<[DVec3; 2]> {
-        let mut length = [0.0; 3];
-        for axis in AXES {
-            length[self.size.axes[axis]] = self.length(log_scale[axis])?;
-        }
-        let dpdx = DVec3::from_array(length);
+        let [x, y, z] = log_scale.to_array().map(|log| self.length(log));
+        let dpdx = dvec3(x?, y?, z?);
         Some([dpdx, dpdx * dvec3(1.0, 1.0, -1.0)])
     }
 

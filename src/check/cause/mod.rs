@@ -64,10 +64,10 @@ pub fn examine(subject: &Subject<'_>) -> Examination {
     }
     let steps = two_scale::steps(subject, rng);
     if let Some(steps) = &steps
-        && steps.slip.name == "half-precision"
+        && steps.found.slip.name == "half-precision"
     {
         // Coordinates of three digits make anything of cells and hashes.
-        all.push(steps.clone());
+        all.push(steps.found.clone());
         return Examination { found: all, follows: false };
     }
     let places = two_scale::some_places(subject, rng);
@@ -76,7 +76,8 @@ pub fn examine(subject: &Subject<'_>) -> Examination {
         .as_ref()
         .map_or_else(|| Measure::sound(subject.variant, subject.hash_scale), |measured| measured.measure);
     let is_interpolated = subject.join == Join::Interpolate && !subject.bare_hash;
-    let explained = if is_interpolated { two_scale::explain(subject, size, &places, rng) } else { None };
+    let explained =
+        if is_interpolated { two_scale::explain(subject, size, &places, steps.as_ref(), rng) } else { None };
     let measure = explained.as_ref().map_or(size, |explained| explained.measure);
     let mut probe = Probe { subject, measure, finer: 0, lean: ALONE };
     // Where one cell alone has nothing to say, both are looked at.
@@ -114,7 +115,7 @@ pub fn examine(subject: &Subject<'_>) -> Examination {
         None if is_interpolated => all.extend(two_scale::by_law(&probe, rng)),
         None => {}
     }
-    all.extend(steps);
+    all.extend(steps.map(|steps| steps.found));
     let follows = all.is_empty() && follows;
     Examination { found: all, follows }
 }

@@ -133,11 +133,12 @@ fn see(
     for fragment in places {
         let log = measure.log_scale(fragment.footprint.dpdx, fragment.footprint.dpdy);
         let (octave, fraction) = (log.floor(), log - log.floor());
-        let weight = if measure.variant == Variant::Anisotropic {
-            corner_weight(fraction.to_array())
-        } else {
-            fraction.x
+        let weight_of = |fraction: DVec3| match measure.variant {
+            Variant::Anisotropic => corner_weight(fraction.to_array()),
+            Variant::Isotropic | Variant::Linear | Variant::Single => fraction.x,
         };
+        let scale = DVec3::from_array(log.to_array().map(libm::exp2));
+        let weights = [weight_of(fraction), weight_of(scale - scale.floor())];
         let nearest = (log + 0.5).floor();
         let octaves = [octave - 1.0, octave, octave + 1.0, octave + 2.0, nearest, nearest + 1.0];
         // Places in the list of what is asked for, and later the thresholds there.
@@ -148,14 +149,17 @@ fn see(
                 asked.push(view);
             }
         }
-        places_of.push((alone, asked.len(), weight, libm::exp2(log.x)));
+        places_of.push((alone, asked.len(), weights));
         asked.push(*fragment);
     }
     let values = subject.thresholds(&asked);
-    let sight = |(alone, own, weight, scale): ([f64; 6], usize, f64, f64)| {
+    let sight = |(alone, own, [weight, of_scale]): ([f64; 6], usize, [f64; 2])| {
         let [below, coarse, fine, above, nearest, next] =
             alone.map(|at| if at.is_nan() { at } else { values[at as usize] });
-        (Sight { alone: [below, coarse, fine, above], nearest: [nearest, next], weight, scale }, values[own])
+        (
+            Sight { alone: [below, coarse, fine, above], nearest: [nearest, next], weight, of_scale },
+            values[own],
+        )
     };
     let sights: Vec<(Sight, f64)> = places_of.into_iter().map(sight).collect();
     // Where octaves do not differ, everything follows from everything.
@@ -171,6 +175,7 @@ fn explained_share(
     correction: &Correction,
     bend: Bend,
     undone: Option<&Undone>,
+    near: f64,
 ) -> f64 {
     let hash = |value: f64| {
         let straight = bend.straight(value);
@@ -181,7 +186,7 @@ fn explained_share(
         let (x, weight) = (form.of)(&sight);
         let bent = bend.bent((correction.of)(x, weight));
         // Some clamp, and some do not.
-        (bent - value).abs() < NEAR || (bent.clamp(0.0, 1.0) - value).abs() < NEAR
+        (bent - value).abs() < near || (bent.clamp(0.0, 1.0) - value).abs() < near
     };
     seen.sights.iter().filter(comes_out).count() as f64 / seen.sights.len() as f64
 }
@@ -198,8 +203,11 @@ pub(super) fn explain(
     subject: &Subject<'_>,
     size: Measure,
     places: &[Fragment],
+    steps: Option<&Steps>,
     rng: &mut Xoshiro256PlusPlus,
 ) -> Option<Explained> {
+    // Each of three thresholds may be half a step away.
+    let near = steps.map_or(NEAR, |steps| (1.5 / steps.count as f64).max(NEAR));
     let undone: Vec<Option<Undone>> = CORRECTIONS.iter().map(|c| Undone::of(c.of, ALONE)).collect();
     let mut sound = None;
     let mut best: Option<Explained> = None;
@@ -222,7 +230,7 @@ pub(super) fn explain(
                         continue;
                     }
                     let undone = undone.as_ref().filter(|_| !is_sound);
-                    let share = explained_share(&seen, form, correction, law.bend, undone);
+                    let share = explained_share(&seen, form, correction, law.bend, undone, near);
                     let sound = *sound.get_or_insert(share);
                     let is_better = best
                         .as_ref()
@@ -332,8 +340,15 @@ fn weightless(probe: &Probe<'_>) -> Option<Slip> {
     nearest(&values, WEIGHTLESS).copied()
 }
 
+/// Thresholds in steps, or at an end where none should be.
+pub(super) struct Steps {
+    pub found: Found,
+    /// How many different ones there are.
+    count: usize,
+}
+
 /// Whether thresholds come in steps, or are 0, or have no more than 11 bits.
-pub(super) fn steps(subject: &Subject<'_>, rng: &mut Xoshiro256PlusPlus) -> Option<Found> {
+pub(super) fn steps(subject: &Subject<'_>, rng: &mut Xoshiro256PlusPlus) -> Option<Steps> {
     const ZERO: Slip = named("clamped-at-zero");
     const STEPS: Slip = named("coarse-steps");
     const HALF: Slip = named("half-precision");
@@ -347,14 +362,14 @@ pub(super) fn steps(subject: &Subject<'_>, rng: &mut Xoshiro256PlusPlus) -> Opti
     };
     if values.iter().all(has_half) && unique(&values).len() > HALVES {
         let shown = format!("all of {CELLS} thresholds are numbers of 16 bits");
-        return Some(found(HALF, shown));
+        return Some(Steps { found: found(HALF, shown), count: FEW });
     }
     let (count, zeros) = (unique(&values).len(), values.iter().filter(|&&value| value == 0.0).count());
     let shown = format!("{CELLS} thresholds have {count} different values, and {zeros} are 0");
     if zeros > 0 && !values.iter().any(|&value| value < 0.0) {
-        return Some(found(ZERO, shown));
+        return Some(Steps { found: found(ZERO, shown), count });
     }
-    (count <= FEW && count > 1).then(|| found(STEPS, shown))
+    (count <= FEW && count > 1).then(|| Steps { found: found(STEPS, shown), count })
 }
 
 /// Where no way is found: the laws of thresholds at a few weights, against those of a single slip in the join or the correction,
@@ -378,7 +393,7 @@ pub(super) fn by_law(probe: &Probe<'_>, rng: &mut Xoshiro256PlusPlus) -> Vec<Fou
     let expected = |form: &Form, correction: &Correction, weight: f64| {
         let value = |&alone: &[f64; 4]| {
             let nearest = if weight < 0.5 { [alone[1], alone[2]] } else { [alone[2], alone[3]] };
-            let (x, t) = (form.of)(&Sight { alone, nearest, weight, scale: libm::exp2(weight) });
+            let (x, t) = (form.of)(&Sight { alone, nearest, weight, of_scale: libm::exp2(weight) - 1.0 });
             (correction.of)(x, t)
         };
         quantiles(hashes.iter().map(value).collect())

@@ -62,8 +62,10 @@ pub struct OwnShader {
     pub taken: Vec<Taken>,
     /// Name of the file.
     pub file: String,
-    /// The text as it was read; empty for SPIR-V.
+    /// The text as it was read; empty for SPIR-V and HLSL, in which nothing of the module has a place.
     pub source: String,
+    /// Where the function is defined or first declared; nothing for SPIR-V.
+    pub defined_at: Option<Place>,
     /// Bytes that naga saw in front of the text.
     prelude: usize,
 }
@@ -157,6 +159,7 @@ pub fn parse(
             taken,
             file: file.to_owned(),
             source: text.to_owned(),
+            defined_at: definition(bytes, &options.function),
             prelude,
         }),
         Err(Fault { message, at }) => {
@@ -235,6 +238,21 @@ fn decoded(bytes: &[u8]) -> (&str, Result<(), Fault>) {
             (text, Err(Fault::new(message).at(Some(text.len()..text.len() + 1))))
         }
     }
+}
+
+/// The place of the name of a function where it is defined or declared: behind another word, before a parenthesis.
+fn definition(bytes: &[u8], function: &str) -> Option<Place> {
+    let (text, Ok(())) = decoded(bytes) else { return None };
+    let is_word = |c: char| c.is_alphanumeric() || c == '_';
+    let is_defined = |&(at, _): &(usize, &str)| {
+        let (before, after) = (&text[..at], &text[at + function.len()..]);
+        let space = before.trim_end();
+        let word = space.rsplit(|c: char| !is_word(c)).next().unwrap_or_default();
+        space.len() < before.len()
+            && !matches!(word, "" | "return" | "else")
+            && after.trim_start().starts_with('(')
+    };
+    text.match_indices(function).find(is_defined).map(|(at, _)| Place::of(text, at))
 }
 
 /// The place of a byte that naga saw: nothing for what was put before the user's text, its end for what was put behind.
