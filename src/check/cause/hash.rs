@@ -253,7 +253,7 @@ fn opposite(probe: &Probe<'_>, rng: &mut Xoshiro256PlusPlus) -> Option<Found> {
     let like = |hash: &dyn Fn([f64; 3]) -> f64| {
         let is_so = |(cell, value): &(&DVec3, &f64)| {
             let difference = (hash(cell.to_array()) - **value).abs();
-            difference < SAME || difference > 1.0 - SAME
+            !(SAME..=1.0 - SAME).contains(&difference)
         };
         cells.iter().zip(&values).filter(is_so).count()
     };

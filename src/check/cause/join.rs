@@ -1,5 +1,6 @@
 //! What becomes of two hashes: the sound way and the wrong ones, as functions of what a threshold shows of single cells.
 
+use super::law::Distribution;
 use super::slip::{Slip, named};
 use crate::threshold::cdf;
 
@@ -160,7 +161,7 @@ pub(super) const CORRECTIONS: &[Correction] = &[
 
 /// Joins whose value does not follow the weight show two cells at every view, each with its own law of single cells: the
 /// distribution function of the value of two hashes.
-pub(super) const WEIGHTLESS: &[(Slip, fn(f64) -> f64)] = &[
+pub(super) const WEIGHTLESS: &[(Slip, Distribution)] = &[
     (named("larger-of-two"), |x| x * x),
     (named("product-of-two"), |x| if x > 0.0 { x - x * libm::log(x) } else { 0.0 }),
     (named("mean-of-two"), |x| cdf::cdf(x, 0.5)),

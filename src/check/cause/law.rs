@@ -82,8 +82,11 @@ pub(super) fn follows(values: &[f64], law: impl Fn(f64) -> f64) -> bool {
     distance(&unique(values), law) < DISTANCE
 }
 
+/// A distribution function.
+pub(super) type Distribution = fn(f64) -> f64;
+
 /// The law that is nearest to the values, where one is near enough: hashes of few values are no sound samples.
-pub(super) fn nearest<'a, T>(values: &[f64], laws: &'a [(T, fn(f64) -> f64)]) -> Option<&'a T> {
+pub(super) fn nearest<'a, T>(values: &[f64], laws: &'a [(T, Distribution)]) -> Option<&'a T> {
     let unique = unique(values);
     let distances = laws.iter().map(|(name, law)| (name, distance(&unique, law)));
     let (name, least) = distances.min_by(|a, b| a.1.total_cmp(&b.1))?;

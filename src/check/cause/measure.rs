@@ -48,7 +48,6 @@ const ANISOTROPIC: &[Size] = &[
     size("min-for-max", |x, y| x.abs().min(y.abs())),
     size("fwidth", |x, y| x.abs() + y.abs()),
     size("length-of-sum", |x, y| (x + y).abs()),
-    size("sum-of-lengths", |x, y| dvec3(x.x.hypot(y.x), x.y.hypot(y.y), x.z.hypot(y.z))),
 ];
 
 const SCALES: &[Scale] = &[

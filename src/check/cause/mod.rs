@@ -3,8 +3,8 @@
 //! A threshold is asked where one octave has all weight; there it shows the hash of one cell, whatever its hash is and in
 //! whatever language it is written. From what it shows of the two cells of a place, Listing 1 or 2 says what the threshold
 //! there should be. Where it is another one, each step is exchanged for what ports by hand have in its place
-//! ([`measure`], [`join`], [`law`]), two steps at most, until it comes out. Where cells begin ([`cells`]) and what the hash
-//! reads ([`hash`], [`reads`]) is looked at directly. What none of these explains is left without a cause.
+//! (`measure`, `join`, `law`), two steps at most, until it comes out. Where cells begin (`cells`) and what the hash
+//! reads (`hash`, `reads`) is looked at directly. What none of these explains is left without a cause.
 
 mod cells;
 mod hash;
