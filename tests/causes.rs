@@ -67,7 +67,7 @@ fn told(numbers: core::ops::RangeInclusive<u32>) -> ([f64; 2], String) {
     for (port, found) in ports.iter().zip(&found) {
         let has = |name: &&str| port.slips.iter().any(|slip| slip == name);
         let is_first = found.first().map_or(port.slips.is_empty(), has);
-        let is_all = found.len() == port.slips.len() && found.iter().all(|name| has(name));
+        let is_all = found.len() == port.slips.len() && found.iter().all(has);
         first += u32::from(is_first);
         if port.slips.len() == 2 {
             (both, of_two) = (both + u32::from(is_all), of_two + 1);
