@@ -86,7 +86,8 @@ mod tests {
             "rejected: stability.translate (§5",
             "  claim: a sub-pixel shift changes",
             "  seen: ",
-            "dfdx-twice (the derivative along screen x stands in for the one along y) - take dFdy",
+            "cause: dfdx-twice: the derivative along screen x stands in for the one along y (",
+            "); take dFdy for the second derivative",
         ] {
             assert!(message.contains(words), "{words} is missing in:\n{message}");
         }

@@ -10,6 +10,8 @@ use hashed_alpha::check::subject::Precision;
 use hashed_alpha::check::{Subject, cause, shaders};
 use hashed_alpha::shader::interpreter::DeviceModel;
 use hashed_alpha::shader::own;
+use hashed_alpha::threshold::hashed::HashedAlpha;
+use hashed_alpha::threshold::real::Real;
 use hashed_alpha::threshold::robust::Join;
 use hashed_alpha::threshold::two_scale::Variant;
 use rayon::prelude::*;
@@ -142,4 +144,24 @@ fn a_specimen_is_told_its_own_slip_or_none() {
         assert!(is_true, "{}: {names:?}", specimen.name);
     }
     assert!(own >= LEAST_TOLD, "{own} of {} specimens are told by their name", specimen::ALL.len());
+}
+
+#[test]
+fn noise_of_a_size_that_is_not_declared_is_told_with_the_size() {
+    for (size, name) in
+        [(0.05, "noise-of-another-size"), (0.5, "half-the-noise"), (3.0, "noise-of-another-size")]
+    {
+        for variant in [Variant::Isotropic, Variant::Anisotropic] {
+            let listing = HashedAlpha { hash_scale: size, ..HashedAlpha::listing(variant) };
+            let mut subject = Subject::new("undeclared", Precision::F32, variant, move |at| {
+                listing.threshold::<f32>(&at.cast()).to_f64()
+            });
+            let examined = cause::examine(&subject);
+            let [found] = &examined.found[..] else { panic!("{size} {variant}: {examined:?}") };
+            assert_eq!(found.slip.name, name, "{size} {variant}");
+            assert_eq!(found.shown, format!("cells are {size} times as wide as they should be"));
+            subject.hash_scale = size;
+            assert!(cause::examine(&subject).found.is_empty(), "{size} {variant}");
+        }
+    }
 }

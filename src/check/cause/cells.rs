@@ -23,10 +23,17 @@ const MOST: f64 = 0.95;
 /// A share of rows with a face where there is none.
 const FEW: f64 = 0.02;
 
+/// Octaves by which cells may be finer than they should be, in the order in which they are tried.
+const SIZES: [i32; 12] = [0, 1, -1, 2, -2, 3, -3, 4, -4, 5, FINEST, -5];
+
+/// The most of them.
+const FINEST: i32 = 6;
+
 /// A change within a cell that is no redraw.
 const SMOOTH: f64 = 0.2;
 
-const TRUNCATION: Slip = named("truncation");
+/// Told also where the hash is its own mirror image.
+pub(super) const TRUNCATION: Slip = named("truncation");
 const NEAREST: Slip = named("nearest-cell");
 const NO_FLOOR: Slip = named("no-floor");
 const SMOOTH_NOISE: Slip = named("smooth-noise");
@@ -36,7 +43,9 @@ const PHASE: Slip = named("other-phase");
 #[derive(Default)]
 pub(super) struct Faces {
     pub found: Option<Found>,
-    /// Octaves by which cells are finer than they should be, where they are cells.
+    /// Whether a point has no cell: every move changes its threshold.
+    pub none: bool,
+    /// Octaves by which cells are finer than they should be.
     pub finer: i32,
     /// Whether some cells have a face in their middle and others have none, as a function of two cells has.
     pub of_two: bool,
@@ -75,81 +84,77 @@ pub(super) fn look(probe: &Probe<'_>, declared_phase: bool, rng: &mut Xoshiro256
     if let Some(exchanged) = exchanged(probe, rng) {
         return Faces { found: Some(exchanged), ..Faces::default() };
     }
-    let (even, small) = faces(probe, 0, rng);
-    let (odd, _) = faces(probe, -1, rng);
-    let says = |slip: Slip, shown: String| Faces { found: Some(found(slip, shown)), ..Faces::default() };
-    let changing = |least: f64| even.iter().filter(|&&share| share >= least).count();
+    let (shares, small) = faces(probe, 0, rng);
+    let changing =
+        |shares: &[f64; PLACES], least: f64| shares.iter().filter(|&&share| share >= least).count();
+    let without = |slip: Slip, shown: &str| Faces {
+        found: Some(found(slip, shown.to_owned())),
+        none: true,
+        ..Faces::default()
+    };
     // Where noise is smooth some of its changes are too small to be seen, and next to a corner most are.
-    let is_smooth = changing(0.7) >= PLACES - 2 && small > 0.7;
-    if changing(MOST) == PLACES || is_smooth {
-        return if is_smooth {
-            says(
-                SMOOTH_NOISE,
-                "within a cell the threshold changes smoothly, at every twelfth of its side".to_owned(),
-            )
-        } else {
-            says(NO_FLOOR, "the threshold is another one at every twelfth of a cell".to_owned())
-        };
+    if changing(&shares, 0.7) >= PLACES - 2 && small > 0.7 {
+        return without(
+            SMOOTH_NOISE,
+            "within a cell the threshold changes smoothly, at every twelfth of its side",
+        );
     }
-    if let Some(sliding) = sliding(probe, rng) {
-        return Faces { found: Some(sliding), ..Faces::default() };
-    }
-    let (third, half) = (PLACES / 3, PLACES / 2);
-    let at =
-        |shares: &[f64; PLACES]| -> Vec<usize> { (0..PLACES).filter(|&place| shares[place] > FEW).collect() };
-    let finer = |finer: i32| Faces { finer, ..Faces::default() };
-    let is_about = |share: f64, wanted: f64| (share - wanted).abs() < 0.05;
-    let shares_at = |places: &[usize], least: f64| places.iter().all(|&place| even[place] >= least);
-    let places = at(&even);
-    match places[..] {
-        // Every other cell has no face, or three of four.
-        [only] if is_about(even[only], 0.5) => finer(-1),
-        [only] if is_about(even[only], 0.25) => finer(-2),
-        [only] if even[only] >= MOST => {
-            one_face(probe, declared_phase, [only, at(&odd).first().copied().unwrap_or(only)], rng)
+    for finer in SIZES {
+        let resized = Probe { finer, ..*probe };
+        let [even, odd] = [0, -1].map(|octave| only_face(&faces(&resized, octave, rng).0));
+        if let (Some(even), Some(odd)) = (even, odd) {
+            let found =
+                sliding(&resized, rng).or_else(|| one_face(&resized, declared_phase, [even, odd], rng));
+            return Faces { found, finer, ..Faces::default() };
         }
-        [a, b] if b == a + half && shares_at(&places, MOST) => finer(1),
-        [a, b] if b == a + half && (even[a] < MOST) != (even[b] < MOST) && shares_at(&places, 0.2) => {
-            Faces { of_two: true, ..Faces::default() }
-        }
-        [a, b, c, d] if [b - a, c - b, d - c] == [third - 1; 3] && shares_at(&places, MOST) => finer(2),
-        _ => Faces::default(),
     }
+    let finest = Probe { finer: FINEST, ..*probe };
+    if changing(&faces(&finest, 0, rng).0, MOST) == PLACES {
+        return without(NO_FLOOR, "the threshold is another one at every twelfth of the smallest cell");
+    }
+    let half = PLACES / 2;
+    let places: Vec<usize> = (0..PLACES).filter(|&place| shares[place] > FEW).collect();
+    let of_two = matches!(places[..], [a, b] if b == a + half && (shares[a] < MOST) != (shares[b] < MOST)
+        && shares[a].min(shares[b]) > 0.2);
+    Faces { of_two, ..Faces::default() }
 }
 
-/// Cells with one face each, at a twelfth of an even and of an odd octave.
+/// The twelfth in which all cells have their only face.
+fn only_face(shares: &[f64; PLACES]) -> Option<usize> {
+    let mut places = (0..PLACES).filter(|&place| shares[place] > FEW);
+    places.next().filter(|&place| shares[place] >= MOST && places.next().is_none())
+}
+
+/// What is wrong with cells that have one face each, at a twelfth of an even and of an odd octave.
 fn one_face(
     probe: &Probe<'_>,
     declared_phase: bool,
     faces: [usize; 2],
     rng: &mut Xoshiro256PlusPlus,
-) -> Faces {
+) -> Option<Found> {
     const WHOLE: Slip = named("cells-at-whole-numbers");
     const THIRD: usize = PLACES / 3;
     const HALF: usize = PLACES / 2;
-    let says = |slip: Slip, shown: String| Faces { found: Some(found(slip, shown)), ..Faces::default() };
     let is_nested = matches!(faces, [THIRD, other] | [other, THIRD] if other == 2 * THIRD);
     if faces == [HALF; 2] {
         let wide = 100.0 * wide_zero(probe, rng);
         let shown =
             format!("cells begin at halves, and {wide:.0} % of {ROWS} cells at zero are twice as wide");
-        return says(NEAREST, shown);
+        return Some(found(NEAREST, shown));
     }
     if !is_nested && faces != [0; 2] {
-        return Faces::default();
+        return None;
     }
     let zero = zero_cells(probe, rng);
     if zero >= MOST {
-        let shown = format!(
-            "of {ROWS} pairs of cells at both sides of zero {:.0} % have one threshold",
-            100.0 * zero
-        );
-        return says(TRUNCATION, shown);
+        let zero = 100.0 * zero;
+        let shown = format!("of {ROWS} pairs of cells at both sides of zero {zero:.0} % have one threshold");
+        return Some(found(TRUNCATION, shown));
     }
     match (is_nested, declared_phase) {
-        (true, false) => says(PHASE, "cells begin at thirds of a cell".to_owned()),
-        (false, true) => says(WHOLE, "cells begin at whole numbers, in every octave".to_owned()),
-        (true, true) | (false, false) => Faces::default(),
+        (true, false) => Some(found(PHASE, "cells begin at thirds of a cell".to_owned())),
+        (false, true) => Some(found(WHOLE, "cells begin at whole numbers, in every octave".to_owned())),
+        (true, true) | (false, false) => None,
     }
 }
 

@@ -25,6 +25,14 @@ fn cell(rng: &mut Xoshiro256PlusPlus, reach: f64) -> DVec3 {
     dvec3(index(), index(), index())
 }
 
+/// Makes one cell of two at the origin, too.
+pub(super) const MIRRORED: Slip = named("mirrored-coordinates");
+
+const OPPOSITE: Slip = named("opposite-of-its-mirror");
+const BAYER: Slip = named("bayer-matrix");
+const EIGHT_BITS: Slip = named("eight-bit-indices");
+const EIGHT_BIT_HASH: Slip = named("eight-bit-hash");
+
 /// A relation between the cells of a pair: cells that a slip makes one.
 struct Relation {
     slip: Slip,
@@ -72,7 +80,7 @@ const RELATIONS: &[Relation] = &[
         shown: "cells that differ in y alone have one threshold",
     },
     Relation {
-        slip: named("bayer-matrix"),
+        slip: BAYER,
         pair: |rng| {
             let cell = whole(rng);
             [cell, cell + dvec3(16.0, 16.0 * step(rng), step(rng))]
@@ -104,7 +112,7 @@ const RELATIONS: &[Relation] = &[
         shown: "cells of one exclusive or of x and y have one threshold",
     },
     Relation {
-        slip: named("mirrored-coordinates"),
+        slip: MIRRORED,
         pair: |rng| {
             let cell = whole(rng);
             [cell, -cell - 2.0 * INSIDE]
@@ -112,7 +120,7 @@ const RELATIONS: &[Relation] = &[
         shown: "places that are opposite across the origin have one threshold",
     },
     Relation {
-        slip: named("mirrored-coordinates"),
+        slip: MIRRORED,
         pair: |rng| {
             let cell = whole(rng);
             [cell, -cell]
@@ -128,7 +136,7 @@ const RELATIONS: &[Relation] = &[
         shown: "the cells x, y and y, x have one threshold",
     },
     Relation {
-        slip: named("eight-bit-indices"),
+        slip: EIGHT_BITS,
         pair: |rng| {
             let far = |rng: &mut Xoshiro256PlusPlus| cell(rng, 100.0).abs() + 600.0;
             [far(rng), far(rng)]
@@ -136,7 +144,7 @@ const RELATIONS: &[Relation] = &[
         shown: "cells beyond 500 along every axis have one threshold",
     },
     Relation {
-        slip: named("eight-bit-indices"),
+        slip: EIGHT_BITS,
         pair: |rng| {
             let cell = whole(rng);
             [cell, cell + 256.0]
@@ -213,26 +221,25 @@ pub(super) fn look(
     let is_told = |law: &Found| relation.as_ref().is_some_and(|relation| relation.slip == law.slip);
     let law = law.filter(|law| !is_told(law));
     // Odd hashes are often the smaller part of what is wrong with a hash.
-    let relation =
-        relation.filter(|relation| law.is_none() || relation.slip.name != "opposite-of-its-mirror");
+    let relation = relation.filter(|relation| law.is_none() || relation.slip != OPPOSITE);
     let mut all: Vec<Found> = relation.into_iter().chain(law).collect();
     if let [relation, law] = &mut all[..]
-        && matches!(relation.slip.name, "eight-bit-indices" | "bayer-matrix")
-        && law.slip.name == "eight-bit-hash"
+        && (relation.slip == EIGHT_BITS || relation.slip == BAYER)
+        && law.slip == EIGHT_BIT_HASH
     {
         const TABLE: Slip = named("permutation-table");
-        let slip = if relation.slip.name == "bayer-matrix" { relation.slip } else { TABLE };
+        let slip = if relation.slip == BAYER { BAYER } else { TABLE };
         return vec![found(slip, format!("{}; {}", relation.shown, law.shown))];
     }
     // Coordinates that end do so at a place, and indices at a number.
     if let [relation] = &mut all[..]
-        && relation.slip.name == "eight-bit-indices"
-        && relation.shown.starts_with("cells beyond")
+        && relation.slip == EIGHT_BITS
     {
         const END: Slip = named("coordinates-end");
         let far = |rng: &mut Xoshiro256PlusPlus| cell(rng, 100.0).abs() + 600.0 + INSIDE;
         let places: Vec<DVec3> = (0..PAIRS).map(|_| far(rng)).collect();
-        if unique(&probe.cells_at(3, &places)).len() > PAIRS / 2 {
+        let [large, small] = [0, 3].map(|octave| unique(&probe.cells_at(octave, &places)).len());
+        if large == 1 && small > PAIRS / 2 {
             relation.slip = END;
         }
     }
@@ -244,7 +251,6 @@ pub(super) fn look(
 fn opposite(probe: &Probe<'_>, rng: &mut Xoshiro256PlusPlus) -> Option<Found> {
     const ODD: Slip = named("fract-sin-dot");
     const TEN: Slip = named("sine-times-ten");
-    const OPPOSITE: Slip = named("opposite-of-its-mirror");
     /// What the third coordinate is multiplied by in the copies of this hash.
     const THIRD: [f64; 6] = [37.719, 45.164, 45.5432, 144.7272, 53.539, 94.673];
     let cells: Vec<DVec3> = (0..PAIRS).map(|_| whole(rng)).collect();
@@ -253,7 +259,7 @@ fn opposite(probe: &Probe<'_>, rng: &mut Xoshiro256PlusPlus) -> Option<Found> {
     let like = |hash: &dyn Fn([f64; 3]) -> f64| {
         let is_so = |(cell, value): &(&DVec3, &f64)| {
             let difference = (hash(cell.to_array()) - **value).abs();
-            !(SAME..=1.0 - SAME).contains(&difference)
+            difference.min(1.0 - difference).abs() < SAME
         };
         cells.iter().zip(&values).filter(is_so).count()
     };
@@ -340,7 +346,6 @@ fn added(probe: &Probe<'_>, rng: &mut Xoshiro256PlusPlus) -> Option<Found> {
 
 /// Whether there are few values, or a law that shows through.
 fn law(probe: &Probe<'_>, is_bent: bool, has_steps: bool, rng: &mut Xoshiro256PlusPlus) -> Option<Found> {
-    const EIGHT: Slip = named("eight-bit-hash");
     const SIGNED: Slip = named("signed-hash");
     const MEAN: Slip = named("mean-of-three-hashes");
     let places: Vec<_> = (0..CELLS).map(|_| cell(rng, 1000.0) + INSIDE).collect();
@@ -355,7 +360,10 @@ fn law(probe: &Probe<'_>, is_bent: bool, has_steps: bool, rng: &mut Xoshiro256Pl
     }
     let count = occupied(&values);
     if !has_steps && count <= 600 {
-        return Some(found(EIGHT, format!("{CELLS} cells have thresholds in {count} of 4096 steps")));
+        return Some(found(
+            EIGHT_BIT_HASH,
+            format!("{CELLS} cells have thresholds in {count} of 4096 steps"),
+        ));
     }
     if !is_bent {
         return None;

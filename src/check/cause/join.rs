@@ -23,10 +23,14 @@ pub(super) struct Form {
     pub slip: Option<Slip>,
     /// One value, and the weight that the CDF is given.
     pub of: fn(&Sight) -> (f64, f64),
+    /// Whether one value of a cell is all that it takes, whatever the weight.
+    pub is_weightless: bool,
+    /// Whether the weight grows towards the coarser cell.
+    pub is_reversed: bool,
 }
 
 const fn form(slip: &'static str, of: fn(&Sight) -> (f64, f64)) -> Form {
-    Form { slip: Some(named(slip)), of }
+    Form { slip: Some(named(slip)), of, is_weightless: false, is_reversed: false }
 }
 
 fn mixed(coarse: f64, fine: f64, t: f64) -> f64 {
@@ -35,12 +39,20 @@ fn mixed(coarse: f64, fine: f64, t: f64) -> f64 {
 
 /// Joins by name of the slip; the first is sound.
 pub(super) const FORMS: &[Form] = &[
-    Form { slip: None, of: |s| (mixed(s.alone[1], s.alone[2], s.weight), s.weight) },
+    Form {
+        slip: None,
+        of: |s| (mixed(s.alone[1], s.alone[2], s.weight), s.weight),
+        is_weightless: false,
+        is_reversed: false,
+    },
     // Of these two the cells tell which: the finer cell is seen alone in the one, the coarser one in the other.
-    form("coarser-for-finer", |s| (mixed(s.alone[1], s.alone[0], s.weight), s.weight)),
+    Form {
+        is_reversed: true,
+        ..form("coarser-for-finer", |s| (mixed(s.alone[1], s.alone[0], s.weight), s.weight))
+    },
     form("octave-skipped", |s| (mixed(s.alone[1], s.alone[3], s.weight), s.weight)),
-    form("one-octave-for-both", |s| (s.alone[1], s.weight)),
-    form("coarse-octave-alone", |s| (s.alone[1], 0.0)),
+    Form { is_weightless: true, ..form("one-octave-for-both", |s| (s.alone[1], s.weight)) },
+    Form { is_weightless: true, ..form("coarse-octave-alone", |s| (s.alone[1], 0.0)) },
     form("nearest-octave", |s| (if s.weight < 0.5 { s.alone[1] } else { s.alone[2] }, 0.0)),
     form("nearest-octave", |s| (if s.weight < 0.5 { s.alone[1] } else { s.alone[2] }, s.weight)),
     form("octave-rounded", |s| (mixed(s.nearest[0], s.nearest[1], s.weight), s.weight)),

@@ -17,6 +17,8 @@ struct Size {
 struct Scale {
     slip: Option<Slip>,
     of: fn(f64, f64, DVec3) -> DVec3,
+    /// What the hash scale is multiplied by.
+    times: f64,
 }
 
 /// A way of taking the logarithm.
@@ -50,41 +52,36 @@ const ANISOTROPIC: &[Size] = &[
     size("length-of-sum", |x, y| (x + y).abs()),
 ];
 
+const fn scale(slip: &'static str, of: fn(f64, f64, DVec3) -> DVec3) -> Scale {
+    Scale { slip: Some(named(slip)), of, times: 1.0 }
+}
+
+const SOUND: Scale =
+    Scale { slip: None, of: |numerator, hash_scale, size| numerator / (hash_scale * size), times: 1.0 };
+
 const SCALES: &[Scale] = &[
-    Scale { slip: None, of: |numerator, hash_scale, size| numerator / (hash_scale * size) },
-    Scale { slip: Some(named("hash-scale-ignored")), of: |numerator, _, size| numerator / size },
-    Scale {
-        slip: Some(named("hash-scale-divides")),
-        of: |numerator, hash_scale, size| numerator * hash_scale / size,
-    },
-    Scale {
-        slip: Some(named("squared-length")),
-        of: |numerator, hash_scale, size| numerator / (hash_scale * size * size),
-    },
-    Scale {
-        slip: Some(named("one-plus-derivative")),
-        of: |numerator, hash_scale, size| numerator / (1.0 + hash_scale * size),
-    },
-    Scale { slip: Some(named("missing-sqrt-half")), of: |_, hash_scale, size| 1.0 / (hash_scale * size) },
-    // Powers of two are told by the cells.
-    Scale {
-        slip: Some(named("noise-of-another-size")),
-        of: |numerator, hash_scale, size| numerator / (0.05 * hash_scale * size),
-    },
-    Scale {
-        slip: Some(named("noise-of-another-size")),
-        of: |numerator, hash_scale, size| numerator / (0.1 * hash_scale * size),
-    },
-    Scale {
-        slip: Some(named("noise-of-another-size")),
-        of: |numerator, hash_scale, size| numerator / (3.0 * hash_scale * size),
-    },
+    SOUND,
+    scale("hash-scale-ignored", |numerator, _, size| numerator / size),
+    scale("hash-scale-divides", |numerator, hash_scale, size| numerator * hash_scale / size),
+    scale("squared-length", |numerator, hash_scale, size| numerator / (hash_scale * size * size)),
+    scale("one-plus-derivative", |numerator, hash_scale, size| numerator / (1.0 + hash_scale * size)),
+    scale("missing-sqrt-half", |_, hash_scale, size| 1.0 / (hash_scale * size)),
+    // Numbers that people write, as 0.05 and 3; powers of two between them are told by the cells.
+    Scale { times: 1.2, ..OTHER_SIZE },
+    Scale { times: 1.25, ..OTHER_SIZE },
+    Scale { times: 1.4, ..OTHER_SIZE },
+    Scale { times: 1.5, ..OTHER_SIZE },
+    Scale { times: 1.6, ..OTHER_SIZE },
+    Scale { times: 1.75, ..OTHER_SIZE },
+    Scale { times: 1.8, ..OTHER_SIZE },
 ];
+
+/// Cells of another size than the hash scale says.
+const OTHER_SIZE: Scale = Scale { slip: Some(named("noise-of-another-size")), ..SOUND };
 
 /// Seen through what a threshold shows of single cells it is the sound scale with fine and coarse exchanged: the size of cells
 /// tells the two apart.
-const INVERSE: Scale =
-    Scale { slip: Some(named("inverse-scale")), of: |_, hash_scale, size| hash_scale * size };
+const INVERSE: Scale = scale("inverse-scale", |_, hash_scale, size| hash_scale * size);
 
 const LOGARITHMS: &[Logarithm] = &[
     Logarithm { slip: None, per_octave: 1.0 },
@@ -145,6 +142,11 @@ impl Measure {
         [self.scale.slip, self.logarithm.slip].into_iter().flatten()
     }
 
+    /// How many times as wide cells are as they should be, but for whole octaves.
+    pub fn times(&self) -> f64 {
+        self.scale.times
+    }
+
     /// Whether the two differ by whole octaves at most, which the cells tell.
     fn looks_like(&self, other: &Self) -> bool {
         let lengths = [0.03, 0.11, 0.7].map(DVec3::splat);
@@ -155,7 +157,7 @@ impl Measure {
     /// The logarithm of the scale along each axis.
     pub fn log_scale(&self, dpdx: DVec3, dpdy: DVec3) -> DVec3 {
         let size = (self.size.of)(dpdx, dpdy);
-        let scale = (self.scale.of)(numerator(self.variant), self.hash_scale, size);
+        let scale = (self.scale.of)(numerator(self.variant), self.hash_scale * self.scale.times, size);
         DVec3::from_array(scale.to_array().map(|scale| libm::log2(scale) * self.logarithm.per_octave))
     }
 

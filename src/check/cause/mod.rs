@@ -64,7 +64,7 @@ pub fn examine(subject: &Subject<'_>) -> Examination {
     }
     let steps = two_scale::steps(subject, rng);
     if let Some(steps) = &steps
-        && steps.found.slip.name == "half-precision"
+        && steps.are_halves
     {
         // Coordinates of three digits make anything of cells and hashes.
         all.push(steps.found.clone());
@@ -92,20 +92,18 @@ pub fn examine(subject: &Subject<'_>) -> Examination {
     let faces = cells::look(&probe, subject.nested_phase, rng);
     match (&explained, inverse) {
         (_, Some(inverse)) => all.push(inverse),
-        (Some(explained), None) => all.extend(explained.of_scale(subject, &faces)),
+        (Some(explained), None) => all.extend(explained.of_scale(&faces)),
         (None, None) => {}
     }
-    // Such cells are none, and the hash of one says nothing.
-    let are_cells =
-        faces.found.as_ref().is_none_or(|found| !matches!(found.slip.name, "no-floor" | "smooth-noise"));
     all.extend(faces.found.clone());
-    if are_cells {
+    // Without cells the hash of one says nothing.
+    if !faces.none {
         probe.finer = faces.finer;
         let is_bent = explained.as_ref().is_some_and(two_scale::Explained::has_bent_hash);
         let of_hash = hash::look(&probe, is_bent, steps.is_some(), rng);
         // A mirror at the origin makes one cell of two there, too.
-        if of_hash.iter().any(|found| found.slip.name == "mirrored-coordinates") {
-            all.retain(|found| found.slip.name != "truncation");
+        if of_hash.iter().any(|found| found.slip == hash::MIRRORED) {
+            all.retain(|found| found.slip != cells::TRUNCATION);
         }
         all.extend(of_hash);
     }

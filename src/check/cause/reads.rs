@@ -31,36 +31,37 @@ struct Part {
     slips: [Slip; 2],
     name: &'static str,
     other: fn(Fragment, f64) -> Fragment,
+    /// Whether a threshold may read it where it claims to change from frame to frame.
+    is_frame: bool,
+}
+
+const fn part(slips: [&'static str; 2], name: &'static str, other: fn(Fragment, f64) -> Fragment) -> Part {
+    Part { slips: [named(slips[0]), named(slips[1])], name, other, is_frame: false }
 }
 
 const PARTS: &[Part] = &[
+    part(["screen-space", "reads-the-pixel"], "the pixel", |f, by| {
+        let pixel = f.pixel + DVec2::new((by * 31.0).floor() + 1.0, (by * 17.0).floor());
+        Fragment { pixel, ..f }
+    }),
+    part(["texture-space", "reads-the-texture-coordinates"], "the texture coordinates", |f, by| Fragment {
+        texcoord: (f.texcoord + 0.1 + 0.8 * by).fract(),
+        ..f
+    }),
+    part(["noise-by-level-of-detail"; 2], "the level of detail", |f, by| Fragment {
+        lod: f.lod + 1.0 + 4.0 * by,
+        ..f
+    }),
+    part(["layer-in-the-seed"; 2], "the layer", |f, by| Fragment {
+        layer: f.layer + 1 + (by * 6.0) as u32,
+        ..f
+    }),
     Part {
-        slips: [named("screen-space"), named("reads-the-pixel")],
-        name: "the pixel",
-        other: |f, by| Fragment {
-            pixel: f.pixel + DVec2::new((by * 31.0).floor() + 1.0, (by * 17.0).floor()),
+        is_frame: true,
+        ..part(["frame-seed"; 2], "the frame", |f, by| Fragment {
+            frame: f.frame + 1 + (by * 60.0) as u32,
             ..f
-        },
-    },
-    Part {
-        slips: [named("texture-space"), named("reads-the-texture-coordinates")],
-        name: "the texture coordinates",
-        other: |f, by| Fragment { texcoord: (f.texcoord + 0.1 + 0.8 * by).fract(), ..f },
-    },
-    Part {
-        slips: [named("noise-by-level-of-detail"); 2],
-        name: "the level of detail",
-        other: |f, by| Fragment { lod: f.lod + 1.0 + 4.0 * by, ..f },
-    },
-    Part {
-        slips: [named("layer-in-the-seed"); 2],
-        name: "the layer",
-        other: |f, by| Fragment { layer: f.layer + 1 + (by * 6.0) as u32, ..f },
-    },
-    Part {
-        slips: [named("frame-seed"); 2],
-        name: "the frame",
-        other: |f, by| Fragment { frame: f.frame + 1 + (by * 60.0) as u32, ..f },
+        })
     },
 ];
 
@@ -90,8 +91,8 @@ pub(super) fn look(subject: &Subject<'_>, rng: &mut Xoshiro256PlusPlus) -> Readi
     let by_position = share(elsewhere);
     let follows_position = by_position >= SOME;
     let mut all = Vec::new();
-    for &Part { slips, name, other } in PARTS {
-        if slips[0].name == "frame-seed" && subject.frames != Frames::Static {
+    for &Part { slips, name, other, is_frame } in PARTS {
+        if is_frame && subject.frames != Frames::Static {
             continue;
         }
         let others = fragments.iter().map(|&fragment| other(fragment, seed::uniform01(rng))).collect();

@@ -141,21 +141,19 @@ fn see(
         let weights = [weight_of(fraction), weight_of(scale - scale.floor())];
         let nearest = (log + 0.5).floor();
         let octaves = [octave - 1.0, octave, octave + 1.0, octave + 2.0, nearest, nearest + 1.0];
-        // Places in the list of what is asked for, and later the thresholds there.
-        let mut alone = [f64::NAN; 6];
-        for (octave, alone) in octaves.into_iter().zip(&mut alone) {
-            if let Some(view) = probe.alone(fragment, octave) {
-                *alone = asked.len() as f64;
+        let alone = octaves.map(|octave| {
+            probe.alone(fragment, octave).map(|view| {
                 asked.push(view);
-            }
-        }
+                asked.len() - 1
+            })
+        });
         places_of.push((alone, asked.len(), weights));
         asked.push(*fragment);
     }
     let values = subject.thresholds(&asked);
-    let sight = |(alone, own, [weight, of_scale]): ([f64; 6], usize, [f64; 2])| {
+    let sight = |(alone, own, [weight, of_scale]): ([Option<usize>; 6], usize, [f64; 2])| {
         let [below, coarse, fine, above, nearest, next] =
-            alone.map(|at| if at.is_nan() { at } else { values[at as usize] });
+            alone.map(|at| at.map_or(f64::NAN, |at| values[at]));
         (
             Sight { alone: [below, coarse, fine, above], nearest: [nearest, next], weight, of_scale },
             values[own],
@@ -265,34 +263,26 @@ impl Explained {
     }
 
     /// What is wrong on the way from the size of a pixel to that of the cells.
-    pub fn of_scale(&self, subject: &Subject<'_>, faces: &Faces) -> Vec<Found> {
+    pub fn of_scale(&self, faces: &Faces) -> Vec<Found> {
         const HALF: Slip = named("half-the-noise");
         const SIZE: Slip = named("noise-of-another-size");
         let mut all: Vec<Found> =
             self.measure.slips_of_scale().map(|slip| found(slip, self.shown())).collect();
-        let finer = faces.finer;
         // Where the weights are exchanged the finer cell shows alone, and without a weight both.
-        if finer != 0 && !(finer == 1 && (self.is_weightless() || self.is_reversed())) {
-            let size = subject.hash_scale * libm::exp2(f64::from(-finer));
-            let shown = format!("cells are {size} pixels wide, and {} declared", subject.hash_scale);
-            all.push(found(if finer == 1 { HALF } else { SIZE }, shown));
+        let shows_finer = faces.finer == 1 && (self.form.is_weightless || self.form.is_reversed);
+        let octaves = if shows_finer { 0 } else { faces.finer };
+        let times = self.measure.times() * libm::exp2(f64::from(-octaves));
+        if times != 1.0 {
+            all.retain(|found| found.slip != SIZE);
+            let shown = format!("cells are {times} times as wide as they should be");
+            all.push(found(if times == 0.5 { HALF } else { SIZE }, shown));
         }
         all
     }
 
-    /// Whether one value of a cell is all that it takes, whatever the weight.
-    fn is_weightless(&self) -> bool {
-        self.form.slip.is_some_and(|slip| matches!(slip.name, "coarse-octave-alone" | "one-octave-for-both"))
-    }
-
-    /// Whether the weight grows towards the coarser cell.
-    fn is_reversed(&self) -> bool {
-        self.form.slip.is_some_and(|slip| slip.name == "coarser-for-finer")
-    }
-
     /// Whether single cells are bent and the threshold is not: then their hash is.
     pub fn has_bent_hash(&self) -> bool {
-        self.law.slip.is_none() && !self.is_uniform && !self.is_weightless()
+        self.law.slip.is_none() && !self.is_uniform && !self.form.is_weightless
     }
 
     /// What is wrong from the hashes on.
@@ -300,9 +290,9 @@ impl Explained {
         const SWAPPED: Slip = named("weights-swapped");
         let mut all = Vec::new();
         if let Some(slip) = self.form.slip {
-            let slip = if self.is_reversed() && faces.finer == 1 {
+            let slip = if self.form.is_reversed && faces.finer == 1 {
                 SWAPPED
-            } else if self.is_weightless() && (faces.finer == 1 || faces.of_two) {
+            } else if self.form.is_weightless && (faces.finer == 1 || faces.of_two) {
                 weightless(probe).unwrap_or(slip)
             } else {
                 slip
@@ -343,6 +333,8 @@ fn weightless(probe: &Probe<'_>) -> Option<Slip> {
 /// Thresholds in steps, or at an end where none should be.
 pub(super) struct Steps {
     pub found: Found,
+    /// Whether they are numbers of 16 bits.
+    pub are_halves: bool,
     /// How many different ones there are.
     count: usize,
 }
@@ -362,14 +354,14 @@ pub(super) fn steps(subject: &Subject<'_>, rng: &mut Xoshiro256PlusPlus) -> Opti
     };
     if values.iter().all(has_half) && unique(&values).len() > HALVES {
         let shown = format!("all of {CELLS} thresholds are numbers of 16 bits");
-        return Some(Steps { found: found(HALF, shown), count: FEW });
+        return Some(Steps { found: found(HALF, shown), are_halves: true, count: FEW });
     }
     let (count, zeros) = (unique(&values).len(), values.iter().filter(|&&value| value == 0.0).count());
     let shown = format!("{CELLS} thresholds have {count} different values, and {zeros} are 0");
     if zeros > 0 && !values.iter().any(|&value| value < 0.0) {
-        return Some(Steps { found: found(ZERO, shown), count });
+        return Some(Steps { found: found(ZERO, shown), are_halves: false, count });
     }
-    (count <= FEW && count > 1).then(|| Steps { found: found(STEPS, shown), count })
+    (count <= FEW && count > 1).then(|| Steps { found: found(STEPS, shown), are_halves: false, count })
 }
 
 /// Where no way is found: the laws of thresholds at a few weights, against those of a single slip in the join or the correction,
