@@ -28,9 +28,11 @@ pub(super) fn sentences(diagnosis: &Diagnosis) -> Vec<String> {
     let explained = all - unexplained.len();
     if !examination.found.is_empty() {
         let mut sentences: Vec<String> = examination.found.iter().map(ToString::to_string).collect();
-        sentences.push(format!(
-            "{explained} of {all} rejections are known of such a slip or of the paper's own listing{rest}"
-        ));
+        if explained > 0 {
+            sentences.push(format!(
+                "{explained} of {all} rejections are known of such a slip or of the paper's own listing{rest}"
+            ));
+        }
         return sentences;
     }
     if examination.follows && guesses.is_empty() {

@@ -137,7 +137,7 @@ fn one_face(
     const HALF: usize = PLACES / 2;
     let is_nested = matches!(faces, [THIRD, other] | [other, THIRD] if other == 2 * THIRD);
     if faces == [HALF; 2] {
-        let wide = 100.0 * wide_zero(probe, rng);
+        let wide = 100.0 * across_zero(probe, 0.2, [0.2, -1.2], rng);
         let shown =
             format!("cells begin at halves, and {wide:.0} % of {ROWS} cells at zero are twice as wide");
         return Some(found(NEAREST, shown));
@@ -145,7 +145,7 @@ fn one_face(
     if !is_nested && faces != [0; 2] {
         return None;
     }
-    let zero = zero_cells(probe, rng);
+    let zero = across_zero(probe, 0.45, [0.45, -0.45], rng);
     if zero >= MOST {
         let zero = 100.0 * zero;
         let shown = format!("of {ROWS} pairs of cells at both sides of zero {zero:.0} % have one threshold");
@@ -226,26 +226,13 @@ fn exchanged(probe: &Probe<'_>, rng: &mut Xoshiro256PlusPlus) -> Option<Found> {
     None
 }
 
-/// The share of pairs of places on both sides of zero, each in the first cell, that have one threshold.
-fn zero_cells(probe: &Probe<'_>, rng: &mut Xoshiro256PlusPlus) -> f64 {
-    let pairs: Vec<[DVec3; 2]> = (0..ROWS)
-        .map(|row| {
-            let axis = DVec3::AXES[row % 3];
-            let other = (DVec3::ONE - axis) * (dvec3(index(rng), index(rng), index(rng)) + 0.45);
-            [other + axis * 0.45, other - axis * 0.45]
-        })
-        .collect();
-    probe.share(&pairs)
-}
-
-/// The share of pairs of places that a cell of double width around zero would hold both, a cast after a half was added.
-fn wide_zero(probe: &Probe<'_>, rng: &mut Xoshiro256PlusPlus) -> f64 {
-    let pairs: Vec<[DVec3; 2]> = (0..ROWS)
-        .map(|row| {
-            let axis = DVec3::AXES[row % 3];
-            let other = (DVec3::ONE - axis) * (dvec3(index(rng), index(rng), index(rng)) + 0.2);
-            [other + axis * 0.2, other - axis * 1.2]
-        })
-        .collect();
+/// The share of pairs of places on both sides of zero along an axis that have one threshold, `inside` of a cell along the others.
+fn across_zero(probe: &Probe<'_>, inside: f64, sides: [f64; 2], rng: &mut Xoshiro256PlusPlus) -> f64 {
+    let pair = |row: usize| {
+        let axis = DVec3::AXES[row % 3];
+        let other = (DVec3::ONE - axis) * (dvec3(index(rng), index(rng), index(rng)) + inside);
+        sides.map(|side| other + axis * side)
+    };
+    let pairs: Vec<[DVec3; 2]> = (0..ROWS).map(pair).collect();
     probe.share(&pairs)
 }

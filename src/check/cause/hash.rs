@@ -31,169 +31,112 @@ pub(super) const MIRRORED: Slip = named("mirrored-coordinates");
 const OPPOSITE: Slip = named("opposite-of-its-mirror");
 const BAYER: Slip = named("bayer-matrix");
 const EIGHT_BITS: Slip = named("eight-bit-indices");
+const SIXTEEN_BITS: Slip = named("sixteen-bit-indices");
+const LOWEST_BIT: Slip = named("lowest-bit-dropped");
 const EIGHT_BIT_HASH: Slip = named("eight-bit-hash");
 
-/// A relation between the cells of a pair: cells that a slip makes one.
+/// A relation between cells that a slip makes one.
 struct Relation {
     slip: Slip,
-    pair: fn(&mut Xoshiro256PlusPlus) -> [DVec3; 2],
     shown: &'static str,
+    /// A cell.
+    one: fn(&mut Xoshiro256PlusPlus) -> DVec3,
+    /// The other, given the first.
+    other: fn(DVec3, &mut Xoshiro256PlusPlus) -> DVec3,
+}
+
+/// A relation of any cell around the origin.
+const fn relation(
+    slip: Slip,
+    shown: &'static str,
+    other: fn(DVec3, &mut Xoshiro256PlusPlus) -> DVec3,
+) -> Relation {
+    Relation { slip, shown, one: around, other }
+}
+
+/// A cell around the origin.
+fn around(rng: &mut Xoshiro256PlusPlus) -> DVec3 {
+    cell(rng, 100.0)
 }
 
 fn step(rng: &mut Xoshiro256PlusPlus) -> f64 {
     (seed::uniform01(rng) * 40.0).floor() + 1.0
 }
 
-fn whole(rng: &mut Xoshiro256PlusPlus) -> DVec3 {
-    cell(rng, 100.0)
+/// A cell with the same exclusive or of x and y.
+fn exclusive(cell: DVec3, bits: i64) -> DVec3 {
+    let exchanged = |index: f64| ((index as i64) ^ bits) as f64;
+    dvec3(exchanged(cell.x), exchanged(cell.y), cell.z)
 }
 
-fn exclusive(cell: DVec3, bits: i64, axes: [bool; 3]) -> DVec3 {
-    let word = |axis: usize| {
-        let index = cell[axis] as i64;
-        (if axes[axis] { index ^ bits } else { index }) as f64
-    };
-    dvec3(word(0), word(1), word(2))
+/// The first of two cells that differ in the last bit along an axis; the second.
+fn neighbour(cell: DVec3, axis: DVec3) -> DVec3 {
+    let index = cell.dot(axis);
+    cell + axis * (1.0 - 2.0 * (index - 2.0 * (0.5 * index).floor()))
 }
 
 /// The first that holds is told.
 const RELATIONS: &[Relation] = &[
+    relation(named("one-threshold-an-object"), "any two cells have one threshold", |_, rng| around(rng)),
+    relation(named("without-x"), "cells that differ in x alone have one threshold", |cell, rng| {
+        cell + DVec3::X * step(rng)
+    }),
+    relation(named("without-y"), "cells that differ in y alone have one threshold", |cell, rng| {
+        cell + DVec3::Y * step(rng)
+    }),
+    relation(
+        BAYER,
+        "cells that are multiples of 16 apart along x and y have one threshold, whatever z is",
+        |cell, rng| cell + dvec3(16.0, 16.0 * step(rng), step(rng)),
+    ),
+    relation(
+        named("two-dimensional-hash"),
+        "cells that differ in z alone have one threshold",
+        |cell, rng| cell + DVec3::Z * step(rng),
+    ),
+    relation(named("sum-of-coordinates"), "cells of one sum x + y + z have one threshold", |cell, rng| {
+        let by = step(rng);
+        cell + dvec3(by, -by - 1.0, 1.0)
+    }),
+    relation(
+        named("xor-of-coordinates"),
+        "cells of one exclusive or of x and y have one threshold",
+        |cell, rng| exclusive(cell, step(rng) as i64),
+    ),
+    relation(MIRRORED, "places that are opposite across the origin have one threshold", |cell, _| {
+        -cell - 2.0 * INSIDE
+    }),
+    relation(MIRRORED, "cells with indices of opposite sign have one threshold", |cell, _| -cell),
+    relation(named("commuting-coordinates"), "the cells x, y and y, x have one threshold", |cell, _| {
+        dvec3(cell.y, cell.x, cell.z)
+    }),
     Relation {
-        slip: named("one-threshold-an-object"),
-        pair: |rng| [whole(rng), whole(rng)],
-        shown: "any two cells have one threshold",
+        one: |rng| around(rng).abs() + 600.0,
+        ..relation(EIGHT_BITS, "cells beyond 500 along every axis have one threshold", |_, rng| {
+            around(rng).abs() + 600.0
+        })
     },
+    relation(EIGHT_BITS, "cells that are 256 apart along every axis have one threshold", |cell, _| {
+        cell + 256.0
+    }),
     Relation {
-        slip: named("without-x"),
-        pair: |rng| {
-            let cell = whole(rng);
-            [cell, cell + DVec3::X * step(rng)]
-        },
-        shown: "cells that differ in x alone have one threshold",
+        one: |rng| around(rng).abs() + 80_000.0,
+        ..relation(SIXTEEN_BITS, "cells beyond 80,000 along every axis have one threshold", |_, rng| {
+            around(rng).abs() + 80_000.0
+        })
     },
-    Relation {
-        slip: named("without-y"),
-        pair: |rng| {
-            let cell = whole(rng);
-            [cell, cell + DVec3::Y * step(rng)]
-        },
-        shown: "cells that differ in y alone have one threshold",
-    },
-    Relation {
-        slip: BAYER,
-        pair: |rng| {
-            let cell = whole(rng);
-            [cell, cell + dvec3(16.0, 16.0 * step(rng), step(rng))]
-        },
-        shown: "cells that are multiples of 16 apart along x and y have one threshold, whatever z is",
-    },
-    Relation {
-        slip: named("two-dimensional-hash"),
-        pair: |rng| {
-            let cell = whole(rng);
-            [cell, cell + DVec3::Z * step(rng)]
-        },
-        shown: "cells that differ in z alone have one threshold",
-    },
-    Relation {
-        slip: named("sum-of-coordinates"),
-        pair: |rng| {
-            let (cell, by) = (whole(rng), step(rng));
-            [cell, cell + dvec3(by, -by - 1.0, 1.0)]
-        },
-        shown: "cells of one sum x + y + z have one threshold",
-    },
-    Relation {
-        slip: named("xor-of-coordinates"),
-        pair: |rng| {
-            let (cell, bits) = (whole(rng), step(rng) as i64);
-            [cell, exclusive(cell, bits, [true, true, false])]
-        },
-        shown: "cells of one exclusive or of x and y have one threshold",
-    },
-    Relation {
-        slip: MIRRORED,
-        pair: |rng| {
-            let cell = whole(rng);
-            [cell, -cell - 2.0 * INSIDE]
-        },
-        shown: "places that are opposite across the origin have one threshold",
-    },
-    Relation {
-        slip: MIRRORED,
-        pair: |rng| {
-            let cell = whole(rng);
-            [cell, -cell]
-        },
-        shown: "cells with indices of opposite sign have one threshold",
-    },
-    Relation {
-        slip: named("commuting-coordinates"),
-        pair: |rng| {
-            let cell = whole(rng);
-            [cell, dvec3(cell.y, cell.x, cell.z)]
-        },
-        shown: "the cells x, y and y, x have one threshold",
-    },
-    Relation {
-        slip: EIGHT_BITS,
-        pair: |rng| {
-            let far = |rng: &mut Xoshiro256PlusPlus| cell(rng, 100.0).abs() + 600.0;
-            [far(rng), far(rng)]
-        },
-        shown: "cells beyond 500 along every axis have one threshold",
-    },
-    Relation {
-        slip: EIGHT_BITS,
-        pair: |rng| {
-            let cell = whole(rng);
-            [cell, cell + 256.0]
-        },
-        shown: "cells that are 256 apart along every axis have one threshold",
-    },
-    Relation {
-        slip: named("sixteen-bit-indices"),
-        pair: |rng| {
-            let far = |rng: &mut Xoshiro256PlusPlus| cell(rng, 100.0).abs() + 80_000.0;
-            [far(rng), far(rng)]
-        },
-        shown: "cells beyond 80,000 along every axis have one threshold",
-    },
-    Relation {
-        slip: named("sixteen-bit-indices"),
-        pair: |rng| {
-            let cell = whole(rng);
-            [cell, cell + 65_536.0]
-        },
-        shown: "cells that are 65,536 apart along every axis have one threshold",
-    },
-    Relation {
-        slip: named("lowest-bit-dropped"),
-        pair: |rng| {
-            let cell = whole(rng);
-            let even = dvec3((cell.x * 0.5).floor() * 2.0, cell.y, cell.z);
-            [even, even + DVec3::X]
-        },
-        shown: "cells 2 i and 2 i + 1 along x have one threshold",
-    },
-    Relation {
-        slip: named("lowest-bit-dropped"),
-        pair: |rng| {
-            let cell = whole(rng);
-            let even = dvec3(cell.x, (cell.y * 0.5).floor() * 2.0, cell.z);
-            [even, even + DVec3::Y]
-        },
-        shown: "cells 2 i and 2 i + 1 along y have one threshold",
-    },
-    Relation {
-        slip: named("lowest-bit-dropped"),
-        pair: |rng| {
-            let cell = whole(rng);
-            let even = dvec3(cell.x, cell.y, (cell.z * 0.5).floor() * 2.0);
-            [even, even + DVec3::Z]
-        },
-        shown: "cells 2 i and 2 i + 1 along z have one threshold",
-    },
+    relation(SIXTEEN_BITS, "cells that are 65,536 apart along every axis have one threshold", |cell, _| {
+        cell + 65_536.0
+    }),
+    relation(LOWEST_BIT, "cells 2 i and 2 i + 1 along x have one threshold", |cell, _| {
+        neighbour(cell, DVec3::X)
+    }),
+    relation(LOWEST_BIT, "cells 2 i and 2 i + 1 along y have one threshold", |cell, _| {
+        neighbour(cell, DVec3::Y)
+    }),
+    relation(LOWEST_BIT, "cells 2 i and 2 i + 1 along z have one threshold", |cell, _| {
+        neighbour(cell, DVec3::Z)
+    }),
 ];
 
 /// Looks at what the hash makes of indices.
@@ -205,11 +148,13 @@ pub(super) fn look(
     has_steps: bool,
     rng: &mut Xoshiro256PlusPlus,
 ) -> Vec<Found> {
-    let at = |pairs: Vec<[DVec3; 2]>| -> Vec<[DVec3; 2]> {
-        pairs.into_iter().map(|pair| pair.map(|cell| cell + INSIDE)).collect()
-    };
-    let relation = RELATIONS.iter().find_map(|Relation { slip, pair, shown }| {
-        let share = probe.share(&at((0..PAIRS).map(|_| pair(rng)).collect()));
+    let relation = RELATIONS.iter().find_map(|Relation { slip, shown, one, other }| {
+        let pair = |_| {
+            let cell = one(rng);
+            [cell, other(cell, rng)].map(|cell| cell + INSIDE)
+        };
+        let pairs: Vec<[DVec3; 2]> = (0..PAIRS).map(pair).collect();
+        let share = probe.share(&pairs);
         (share >= MOST).then(|| found(*slip, format!("{shown}: {:.0} % of {PAIRS} pairs", 100.0 * share)))
     });
     let relation = relation
@@ -236,7 +181,7 @@ pub(super) fn look(
         && relation.slip == EIGHT_BITS
     {
         const END: Slip = named("coordinates-end");
-        let far = |rng: &mut Xoshiro256PlusPlus| cell(rng, 100.0).abs() + 600.0 + INSIDE;
+        let far = |rng: &mut Xoshiro256PlusPlus| around(rng).abs() + 600.0 + INSIDE;
         let places: Vec<DVec3> = (0..PAIRS).map(|_| far(rng)).collect();
         let [large, small] = [0, 3].map(|octave| unique(&probe.cells_at(octave, &places)).len());
         if large == 1 && small > PAIRS / 2 {
@@ -253,7 +198,7 @@ fn opposite(probe: &Probe<'_>, rng: &mut Xoshiro256PlusPlus) -> Option<Found> {
     const TEN: Slip = named("sine-times-ten");
     /// What the third coordinate is multiplied by in the copies of this hash.
     const THIRD: [f64; 6] = [37.719, 45.164, 45.5432, 144.7272, 53.539, 94.673];
-    let cells: Vec<DVec3> = (0..PAIRS).map(|_| whole(rng)).collect();
+    let cells: Vec<DVec3> = (0..PAIRS).map(|_| around(rng)).collect();
     let places: Vec<DVec3> = cells.iter().map(|&cell| cell + INSIDE).collect();
     let values = probe.cells(&places);
     let like = |hash: &dyn Fn([f64; 3]) -> f64| {
@@ -299,7 +244,7 @@ fn added(probe: &Probe<'_>, rng: &mut Xoshiro256PlusPlus) -> Option<Found> {
     const CONGRUENCE: Slip = named("congruential-hash");
     let mut places = Vec::new();
     for _ in 0..PAIRS {
-        let (cell, by_x, by_y) = (whole(rng) + INSIDE, DVec3::X * step(rng), DVec3::Y * step(rng));
+        let (cell, by_x, by_y) = (around(rng) + INSIDE, DVec3::X * step(rng), DVec3::Y * step(rng));
         places.extend([cell, cell + by_x, cell + by_y, cell + by_x + by_y]);
     }
     let values = probe.cells(&places);
@@ -324,7 +269,7 @@ fn added(probe: &Probe<'_>, rng: &mut Xoshiro256PlusPlus) -> Option<Found> {
     // A step of one along x is the same number everywhere.
     let pairs: Vec<_> = (0..PAIRS)
         .map(|_| {
-            let cell = whole(rng) + INSIDE;
+            let cell = around(rng) + INSIDE;
             [cell, cell + DVec3::X]
         })
         .collect();
@@ -377,7 +322,7 @@ fn law(probe: &Probe<'_>, is_bent: bool, has_steps: bool, rng: &mut Xoshiro256Pl
 /// Whether the hash is the paper's, with a smaller factor before the fraction is taken.
 fn small_factor(probe: &Probe<'_>, rng: &mut Xoshiro256PlusPlus) -> Option<Found> {
     const TEN: Slip = named("sine-times-ten");
-    let cells: Vec<DVec3> = (0..PAIRS).map(|_| whole(rng)).collect();
+    let cells: Vec<DVec3> = (0..PAIRS).map(|_| around(rng)).collect();
     let places: Vec<DVec3> = cells.iter().map(|&cell| cell + INSIDE).collect();
     let values = probe.cells(&places);
     [1.0, 10.0, 100.0].into_iter().find_map(|factor: f32| {

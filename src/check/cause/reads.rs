@@ -1,6 +1,6 @@
 //! What a threshold reads of a fragment that it should not, and whether it reads the position at all.
 
-use super::law::laws;
+use super::law::{laws, unique};
 use super::probe::{SAME, places};
 use super::slip::{Found, Slip, found, named};
 use crate::check::{Frames, Subject};
@@ -108,14 +108,18 @@ pub(super) fn look(subject: &Subject<'_>, rng: &mut Xoshiro256PlusPlus) -> Readi
         }
     }
     if !follows_position {
-        if all.is_empty() {
-            const OBJECT: Slip = named("one-threshold-an-object");
-            let shown =
-                format!("another position changes {:.0} % of {FRAGMENTS} thresholds", 100.0 * by_position);
-            all.push(found(OBJECT, shown));
-        }
         // No cell is left to look at: what is done to all values is.
         let values = subject.thresholds(&places(CELLS, subject.hash_scale, rng));
+        if all.is_empty() {
+            const OBJECT: Slip = named("one-threshold-an-object");
+            let shown = match unique(&values)[..] {
+                [only] => format!("all of {CELLS} thresholds are {only}"),
+                _ => {
+                    format!("another position changes {:.0} % of {FRAGMENTS} thresholds", 100.0 * by_position)
+                }
+            };
+            all.push(found(OBJECT, shown));
+        }
         let laws = laws(&values);
         if laws.iter().all(|law| law.slip.is_some()) {
             all.extend(laws.into_iter().filter_map(|law| Some(found(law.slip?, law.shown))).take(1));
