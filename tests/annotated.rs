@@ -64,11 +64,11 @@ fn the_action_tries_the_shaders_of_a_change_and_no_others() {
     std::fs::write(at("old.frag"), PORT_WITH_A_SLIP).unwrap();
     git(&["add", "."]);
     git(&["commit", "-qm", "before"]);
-    let act = || {
+    let act = |base: &str| {
         let output = Command::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.ci/action"))
             .current_dir(folder.path())
             .env("HASHED_ALPHA", BINARY)
-            .envs([("FILES", ""), ("FUNCTION", "threshold"), ("BASE", ""), ("REPORT", "report")])
+            .envs([("FILES", ""), ("FUNCTION", "threshold"), ("BASE", base), ("REPORT", "report")])
             .env("ARGUMENTS", "--budget quick --only stability")
             .env("GITHUB_OUTPUT", at("output"))
             .output()
@@ -79,13 +79,20 @@ fn the_action_tries_the_shaders_of_a_change_and_no_others() {
     std::fs::write(at("other.frag"), "float x() { return 0.0; }").unwrap();
     git(&["add", "."]);
     git(&["commit", "-qm", "no threshold"]);
-    assert_eq!(act(), (Some(0), "No shader of this change has a function threshold.\n".to_owned()));
+    assert_eq!(act(""), (Some(0), "No shader of this change has a function threshold.\n".to_owned()));
     std::fs::write(at("new.frag"), PORT_WITH_A_SLIP).unwrap();
     git(&["add", "."]);
     git(&["commit", "-qm", "a threshold"]);
-    let (code, text) = act();
+    let (code, text) = act("");
     assert_eq!(code, Some(1), "{text}");
     assert!(text.starts_with("::error file=new.frag,line=3,") && !text.contains("old.frag"), "{text}");
     assert!(at("report/check.sarif").exists() && at("report/index.html").exists());
     assert_eq!(std::fs::read_to_string(at("output")).unwrap(), "tried=false\ntried=true\n");
+    // A first push names no commit: nothing is passed over in silence.
+    let (code, text) = act(&"0".repeat(40));
+    assert_eq!(code, Some(1), "{text}");
+    assert!(
+        text.starts_with("::notice::") && text.contains("file=old.frag") && text.contains("file=new.frag"),
+        "{text}"
+    );
 }

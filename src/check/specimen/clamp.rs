@@ -26,21 +26,21 @@ pub(super) const FAMILY: &[Specimen] = &[
     },
     Specimen {
         name: "clamped-by-255ths",
-        defect: "thresholds are no smaller than 1/255, so faint texels are never kept",
+        defect: "thresholds have a floor, as 1/255, so faint texels are never kept",
         mend: "clamp to 1e-6 or below",
         claim: "atoms.ends",
         subject: || ending(|threshold| threshold.max(1.0 / 255.0)),
     },
     Specimen {
         name: "clamped-below-opaque",
-        defect: "thresholds are no larger than 0.98, so that nearly opaque texels are surely kept",
+        defect: "thresholds have a ceiling below 1, as 0.98, so that nearly opaque texels are surely kept",
         mend: "clamp to 1: alpha 1 is kept at a threshold of 1",
         claim: "atoms.ends",
         subject: || ending(|threshold| threshold.clamp(1.0e-6, 0.98)),
     },
     Specimen {
         name: "safe-middle",
-        defect: "thresholds are squeezed into [0.1, 0.9], so faint texels vanish and dense ones become solid",
+        defect: "thresholds are squeezed into a part of (0, 1], as [0.1, 0.9], so faint texels vanish and dense ones become solid",
         mend: "leave the threshold in (0, 1]",
         claim: "uniform.marginal",
         subject: || ending(|threshold| 0.1 + 0.8 * threshold),
@@ -54,7 +54,7 @@ pub(super) const FAMILY: &[Specimen] = &[
     },
     Specimen {
         name: "gamma-curve",
-        defect: "the threshold has gone through a gamma curve of 1.1",
+        defect: "the threshold has gone through a gamma curve",
         mend: "compare alpha with the threshold as it is; neither is a colour",
         claim: "uniform.coverage",
         subject: || ending(|threshold| libm::pow(threshold, 1.1)),
