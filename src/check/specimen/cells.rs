@@ -48,7 +48,7 @@ pub(super) const FAMILY: &[Specimen] = &[
     },
     Specimen {
         name: "no-floor",
-        defect: "the scaled position goes into the paper's hash without being rounded down, so every move redraws every \
+        defect: "the scaled position is hashed without being rounded down, so every move redraws every \
                  threshold",
         mend: "round down with floor",
         claim: "spectrum.radial",

@@ -17,7 +17,7 @@ const fn reading(read: fn(&Fragment) -> Footprint<f64>) -> Port {
 pub(super) const FAMILY: &[Specimen] = &[
     Specimen {
         name: "screen-space",
-        defect: "the pixel is hashed, so the noise stays on the screen while the object moves",
+        defect: "the threshold is that of the pixel, so the noise stays on the screen while the object moves",
         mend: "hash the position in object coordinates",
         claim: "frames.serial",
         subject: || reading(|at| Footprint { position: at.pixel.extend(0.0), ..at.footprint }).subject(),
@@ -38,7 +38,7 @@ pub(super) const FAMILY: &[Specimen] = &[
     },
     Specimen {
         name: "texture-space",
-        defect: "texture coordinates are hashed, so the noise is as coarse as the texture is stretched, and repeats with it",
+        defect: "the threshold is that of the texture coordinates, so the noise is as coarse as the texture is stretched, and repeats with it",
         mend: "hash the position in object coordinates",
         claim: "uniform.marginal",
         subject: || reading(|at| Footprint { position: at.texcoord.extend(0.0), ..at.footprint }).subject(),
@@ -59,7 +59,7 @@ pub(super) const FAMILY: &[Specimen] = &[
     },
     Specimen {
         name: "one-threshold-an-object",
-        defect: "the hash is taken of the object and not of its cells: the whole object comes or goes at once",
+        defect: "a whole object has one threshold, so that all of it comes or goes at once",
         mend: "hash the cell of the position",
         claim: "uniform.coverage",
         subject: || reading(|at| Footprint { position: DVec3::ONE, ..at.footprint }).subject(),
