@@ -8,6 +8,7 @@ use hashed_alpha::render::gallery::GALLERY;
 use hashed_alpha::render::scene_file::bound::LARGEST_SIDE;
 use hashed_alpha::scene::Scene;
 use hashed_alpha::shader::export::Language;
+use hashed_alpha::shader::own::THRESHOLD;
 use hashed_alpha::threshold::hash::HashKind;
 use hashed_alpha::threshold::robust::{Join, Repair};
 use hashed_alpha::threshold::two_scale::Variant;
@@ -201,17 +202,24 @@ impl On {
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "Shaders")]
 pub struct ShaderArgs {
-    /// Function of the shader files that returns the threshold; that of one file is named as in `my.glsl#NAME`
-    #[arg(long, value_name = "NAME", default_value = "threshold")]
+    /// Function of the shader files that returns the threshold, or that has the test of an alpha: one that discards, that returns
+    /// whether to keep, or `main`. That of one file is named as in `my.glsl#NAME`. Without one, the only function that sounds like it is
+    /// taken
+    #[arg(long, value_name = "NAME", default_value = THRESHOLD)]
     pub function: String,
     /// Value of a parameter, uniform, override or macro of the shader files; a vector is X,Y,Z. FILE#KEY=VALUE for one file
     /// among several. Can be given several times
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
-    /// What a shader file calls a value of the fragment, as in position=wpos where a parameter, varying or uniform `wpos` holds the
-    /// position. The usual names (pos, vPosition, uv, gl_FragCoord, ...) are known. FILE#KEY=NAME for one file among several
+    /// What a shader file calls a value of the fragment, as in position=wpos where a parameter, varying, uniform or member `wpos` holds
+    /// the position, or alpha=a where `a` is tested. The usual names (pos, vPosition, uv, gl_FragCoord, ...) are known. FILE#KEY=NAME for
+    /// one file among several
     #[arg(long, value_name = "KEY=NAME")]
     pub map: Vec<String>,
+    /// Folder in which files are looked for that an `#include` of GLSL or HLSL names, behind that of the file itself. Can be given
+    /// several times
+    #[arg(short = 'I', long, value_name = "DIR")]
+    pub include: Vec<PathBuf>,
     /// Where a shader runs: `auto` is the GPU if there is one and the interpreter otherwise, `device-model` is the interpreter
     /// under the arithmetic of several devices
     #[arg(long, default_value = "auto", value_parser = one_of(On::ALL, On::name))]

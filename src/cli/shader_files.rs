@@ -36,7 +36,8 @@ impl<'a> ShaderFile<'a> {
     /// Returns what is asked of the file: values that name it go before those that hold for every file.
     pub fn options(&self, args: &ShaderArgs) -> Result<own::Options, Failure> {
         let function = self.function.unwrap_or(&args.function).to_owned();
-        Ok(own::Options { function, settings: self.own(&SET, &args.set)?, map: self.own(&MAP, &args.map)? })
+        let (settings, map) = (self.own(&SET, &args.set)?, self.own(&MAP, &args.map)?);
+        Ok(own::Options { function, settings, map, include: args.include.clone() })
     }
 
     /// What an option says for this file: values that name it go before those that hold for every file.

@@ -215,6 +215,7 @@ fn file(typed: &ShaderFile<'_>, args: &ShaderArgs) -> Result<Vec<Asked>, Failure
         let said: Vec<_> = shader.taken.iter().map(ToString::to_string).collect();
         output::remark("note", format_args!("in {} {}", typed.name(), said.join(", ")));
     }
+    shader.notes.iter().for_each(|note| output::remark("note", format_args!("in {} {note}", typed.name())));
     let place = shader.defined_at.map(|place| [place.line, place.column]);
     let written = Some((typed.path.to_owned(), place));
     if shader.is_hash() {

@@ -155,7 +155,9 @@ fn names_of_a_file_do_not_meet_those_around_it() {
 fn settings_are_macros_where_conditions_ask_for_them() {
     let text = "#ifdef USE_HASH\nfloat threshold(vec3 position) { return STRENGTH * position.x; }\n#endif
 #if !defined(STRENGTH)\n#define STRENGTH 0.5\n#endif";
-    assert!(glsl(text, &options(&[])).unwrap_err().contains("it stands behind `#ifdef USE_HASH`"));
+    // What the function itself stands behind is defined without a word of the user's.
+    let defined = glsl(&text.replace("STRENGTH * ", ""), &options(&[])).unwrap();
+    assert_eq!(defined.notes, ["`USE_HASH` is defined as 1, since `threshold` stands behind it"]);
     let shader = glsl(
         &text.replace("#ifdef", "#if STRENGTH > 1\n#endif\n#ifdef"),
         &options(&[("USE_HASH", ""), ("STRENGTH", "2")]),
@@ -171,9 +173,15 @@ fn threshold(position: vec3<f32>) -> f32 { return fract(position.x); }";
     let missing = text.replace("fract", "b");
     assert!(wgsl(&missing, &options(&[])).unwrap_err().starts_with("own.wgsl:8:51: "));
     let conditional = format!("#ifdef X\n{text}");
+    let error = wgsl(&conditional, &options(&[])).unwrap_err();
     assert!(
-        wgsl(&conditional, &options(&[])).unwrap_err().starts_with("own.wgsl:1:1: WGSL has no directives")
+        error.starts_with("own.wgsl:1:1: the file ends before this `#ifdef` has its `#endif`"),
+        "{error}"
     );
+    let shader = wgsl(&format!("{conditional}\n#endif"), &options(&[])).unwrap();
+    assert_eq!(shader.notes, ["`X` is defined as 1, since `threshold` stands behind it"]);
+    let directive = wgsl(&format!("#version 3\n{text}"), &options(&[])).unwrap_err();
+    assert!(directive.starts_with("own.wgsl:1:1: WGSL has no directives"), "{directive}");
 }
 
 #[test]

@@ -47,11 +47,8 @@ impl OwnShader {
     ///
     /// [`ShaderError`]: it uses something that is not interpreted.
     pub fn program(&self) -> Result<Program, ShaderError> {
-        Program::compile(&self.module, &self.info, &self.function).map_err(|error| ShaderError {
-            file: self.file.clone(),
-            place: self.place(error.span),
-            message: error.message,
-        })
+        Program::compile(&self.module, &self.info, &self.function)
+            .map_err(|error| self.error_at(error.span, error.message))
     }
 
     /// Returns the values of every parameter as columns for [`Program::run`]: one a scalar, of one value where it is the

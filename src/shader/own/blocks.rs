@@ -8,10 +8,11 @@ use naga::{
     AddressSpace, Expression, Function, GlobalVariable, Handle, Module, Span, Statement, StructMember,
     TypeInner,
 };
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Makes uniform structures private variables that begin with the values that `settings` has for their members, by
-/// `block.member` or by `member`; the others are zero. Returns which members of which block have a value.
+/// `block.member` or by `member`; the others are zero. Returns which members of which block have a value, those that are `taken` for a
+/// value of the fragment among them.
 ///
 /// # Errors
 ///
@@ -19,6 +20,7 @@ use std::collections::BTreeMap;
 pub(super) fn fill(
     module: &mut Module,
     settings: &mut BTreeMap<String, String>,
+    taken: &BTreeMap<Handle<GlobalVariable>, BTreeSet<usize>>,
 ) -> Result<BTreeMap<String, Vec<bool>>, Fault> {
     let mut blocks = BTreeMap::new();
     let handles: Vec<_> = module.global_variables.iter().map(|(handle, _)| handle).collect();
@@ -28,10 +30,11 @@ pub(super) fn fill(
         let (ty, members) = (variable.ty, members.to_vec());
         let at = module.global_variables.get_span(handle).to_range();
         let (mut components, mut is_set) = (Vec::new(), Vec::new());
-        for member in members {
+        for (index, member) in members.into_iter().enumerate() {
+            let is_taken = taken.get(&handle).is_some_and(|members| members.contains(&index));
             let key = member.name.clone().unwrap_or_default();
             let written = settings.remove(&format!("{name}.{key}")).or_else(|| settings.remove(&key));
-            is_set.push(written.is_some());
+            is_set.push(written.is_some() || is_taken);
             let init = match written {
                 None => module.global_expressions.append(Expression::ZeroValue(member.ty), Span::UNDEFINED),
                 Some(written) => {
@@ -67,7 +70,9 @@ pub(super) fn refuse_unset(module: &Module, blocks: &BTreeMap<String, Vec<bool>>
             let key = member.name.clone().unwrap_or_default();
             let message = match Constant::form(&module.types[member.ty].inner) {
                 Some(form) => {
-                    format!("`{key}` of uniform block `{name}` has no value: --set {name}.{key}={form}")
+                    // The block of HLSL in which uniforms outside of all blocks are.
+                    let typed = if name.starts_with('$') { key.clone() } else { format!("{name}.{key}") };
+                    format!("`{key}` of uniform block `{name}` has no value: --set {typed}={form}")
                 }
                 None => format!(
                     "`{key}` of uniform block `{name}`, of type {}, has no value, and --set gives one to numbers and vectors \

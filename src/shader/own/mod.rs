@@ -4,16 +4,22 @@
 //! engines write it, see the list in `glsl/prepare.rs`. SPIR-V is read so that what is exported can be read back. Of a module
 //! only the function and what it calls is kept; uniforms and overrides that it reads get the values that the user gives.
 
+mod alpha_test;
 mod arguments;
+mod bisection;
 mod blocks;
 mod body;
+mod conditions;
 mod derivative;
+mod directives;
 mod error;
 mod front;
 mod glsl;
 mod hlsl;
+mod includes;
 mod invalid;
 mod isolated;
+mod items;
 mod language;
 mod mapping;
 mod nesting;
@@ -25,6 +31,9 @@ mod reduce;
 mod scan;
 mod setting;
 mod signature;
+mod sources;
+mod statements;
+mod unit;
 mod variables;
 mod wgsl;
 
@@ -32,17 +41,22 @@ pub use error::{Place, ShaderError};
 pub use isolated::READER;
 pub use language::{ENDINGS, Language, instead_of};
 pub use mapping::Taken;
-pub use options::Options;
+pub use options::{Options, THRESHOLD};
 pub use setting::{Constant, Value};
 pub use signature::{Binding, Input};
 
 use super::assemble::{SAMPLE_INDEX, ShaderOptions, assemble};
+use alpha_test::Dialect;
 use error::Fault;
+use front::Front;
 use isolated::isolated;
 use naga::valid::ModuleInfo;
 use naga::{Module, Span};
+use sources::Sources;
+use std::collections::BTreeSet;
 use std::io::Read;
 use std::path::Path;
+use unit::Unit;
 
 /// The largest file that is read.
 pub const LARGEST_FILE: u64 = 4 << 20;
@@ -60,17 +74,19 @@ pub struct OwnShader {
     pub bindings: Vec<Binding>,
     /// What was taken for a value of a fragment under another name than ours.
     pub taken: Vec<Taken>,
+    /// What was done with the text before, in sentences: the test whose threshold is tried, the macros that are defined.
+    pub notes: Vec<String>,
     /// Name of the file.
     pub file: String,
-    /// The text as it was read; empty for SPIR-V and HLSL, in which nothing of the module has a place.
-    pub source: String,
     /// Where the function is defined or first declared; nothing for SPIR-V.
     pub defined_at: Option<Place>,
+    /// Where the bytes of the text come from; nothing for SPIR-V and HLSL, in which nothing of the module has a place.
+    sources: Sources,
     /// Bytes that naga saw in front of the text.
     prelude: usize,
 }
 
-/// Reads a shader file.
+/// Reads a shader file. Files that it includes are looked for beside it and in [`Options::include`].
 ///
 /// # Errors
 ///
@@ -89,10 +105,10 @@ pub fn read(path: &Path, options: &Options) -> Result<OwnShader, ShaderError> {
         let size = std::fs::metadata(path).map_or(bytes.len() as u64, |metadata| metadata.len());
         return Err(fail(format!("the file has {size} bytes; at most {LARGEST_FILE} are read")));
     }
-    parse(&file, language, &bytes, options)
+    parse_in(path.parent(), &file, language, &bytes, options)
 }
 
-/// Reads a shader out of memory; `file` is its name in messages.
+/// Reads a shader out of memory; `file` is its name in messages. Files that it includes are looked for in [`Options::include`] alone.
 ///
 /// # Errors
 ///
@@ -104,69 +120,96 @@ pub fn parse(
     bytes: &[u8],
     options: &Options,
 ) -> Result<OwnShader, ShaderError> {
-    let mut text = "";
+    parse_in(None, file, language, bytes, options)
+}
+
+fn parse_in(
+    folder: Option<&Path>,
+    file: &str,
+    language: Language,
+    bytes: &[u8],
+    options: &Options,
+) -> Result<OwnShader, ShaderError> {
+    let mut sources = Sources::default();
     let mut prelude = 0;
-    let outcome = (|| {
-        if bytes.iter().all(u8::is_ascii_whitespace) {
-            return Err(Fault::new("the file is empty"));
-        }
-        let front = match language {
-            Language::Wgsl => {
-                let decoded = decoded(bytes);
-                text = decoded.0;
-                decoded.1?;
-                wgsl::read(text, options)
-            }
-            Language::Glsl => {
-                let decoded = decoded(bytes);
-                text = decoded.0;
-                decoded.1?;
-                glsl::read(text, options, &mut prelude)
-            }
-            Language::Hlsl => {
-                let decoded = decoded(bytes);
-                text = decoded.0;
-                decoded.1?;
-                let front = hlsl::read(text, options)?;
-                // What is found from here on has no place in it.
-                text = "";
-                Ok(front)
-            }
-            Language::Quoted => {
-                let decoded = decoded(bytes);
-                text = decoded.0;
-                decoded.1?;
-                let uncovered = quoted::uncovered(text, &options.function)?;
-                match quoted::defined(&uncovered, &options.function) {
-                    Some("fn") => wgsl::read(&uncovered, options),
-                    _ => glsl::read(&uncovered, options, &mut prelude),
-                }
-            }
-            Language::SpirV => {
-                let bytes = bytes.to_vec();
-                isolated(move || front::read_spir_v(&bytes))
-            }
-        }?;
-        let options = options.clone();
-        isolated(move || reduce::reduce(front, &options))
-    })();
+    let outcome = read_text(folder, file, language, bytes, options, &mut sources, &mut prelude);
     match outcome {
-        Ok(reduce::Reduced { module, info, function, bindings, taken }) => Ok(OwnShader {
-            module,
-            info,
-            function,
-            bindings,
-            taken,
-            file: file.to_owned(),
-            source: text.to_owned(),
-            defined_at: definition(bytes, &options.function),
-            prelude,
-        }),
+        Ok((reduced, notes)) => {
+            let reduce::Reduced { module, info, function, bindings, taken, bisected } = reduced;
+            let notes = notes.into_iter().chain(bisected).collect();
+            let defined_at = definition(bytes, &options.function);
+            Ok(OwnShader {
+                module,
+                info,
+                function,
+                bindings,
+                taken,
+                notes,
+                file: file.to_owned(),
+                defined_at,
+                sources,
+                prelude,
+            })
+        }
         Err(Fault { message, at }) => {
-            let place = at.and_then(|at| place(text, prelude, at.start));
+            let found = at.and_then(|at| located(&sources, prelude, at.start));
+            let (file, place) = found.map_or((file, None), |(file, place)| (file, Some(place)));
             Err(ShaderError { file: file.to_owned(), place, message })
         }
     }
+}
+
+/// Reads bytes down to one function, with what was done on the way.
+fn read_text(
+    folder: Option<&Path>,
+    file: &str,
+    language: Language,
+    bytes: &[u8],
+    options: &Options,
+    sources: &mut Sources,
+    prelude: &mut usize,
+) -> Result<(reduce::Reduced, Vec<String>), Fault> {
+    if bytes.iter().all(u8::is_ascii_whitespace) {
+        return Err(Fault::new("the file is empty"));
+    }
+    let reduced = |front: Front, options: &Options, pixels: BTreeSet<String>| {
+        let options = options.clone();
+        isolated(move || reduce::reduce(front, &options, &pixels))
+    };
+    if language == Language::SpirV {
+        let owned = bytes.to_vec();
+        let front = isolated(move || front::read_spir_v(&owned))?;
+        return Ok((reduced(front, options, BTreeSet::new())?, Vec::new()));
+    }
+    let (text, fault) = decoded(bytes);
+    *sources = Sources::of(file, text);
+    fault?;
+    let mut options = options.clone();
+    let (text, dialect) = match language {
+        Language::Wgsl => (text.to_owned(), Dialect::Wgsl),
+        Language::Hlsl => (text.to_owned(), Dialect::Hlsl),
+        Language::Glsl | Language::SpirV => (text.to_owned(), Dialect::Glsl),
+        Language::Quoted => {
+            let uncovered = quoted::uncovered(text, &mut options.function)?;
+            let is_wgsl = match quoted::defined(&uncovered, &options.function) {
+                Some(word) => word == "fn",
+                None => quoted::functions(&uncovered).iter().any(|name| quoted::defined(&uncovered, name) == Some("fn")),
+            };
+            (uncovered, if is_wgsl { Dialect::Wgsl } else { Dialect::Glsl })
+        }
+    };
+    let unit = unit::unit(text, dialect, &options, folder, sources)?;
+    let Unit { text, asked, notes, pixels } = unit;
+    let front = match dialect {
+        Dialect::Wgsl => wgsl::read(&text, &asked),
+        Dialect::Glsl => glsl::read(&text, &asked, prelude),
+        Dialect::Hlsl => hlsl::read(&text, &asked),
+    }?;
+    if dialect == Dialect::Hlsl {
+        // What is found from here on has no place in it.
+        *sources = Sources::default();
+    }
+    Ok((reduced(front, &asked, pixels)?, notes))
 }
 
 /// Makes the assembled threshold of `options` ready to run, as if it came from a file; a noise size and a sample index
@@ -215,13 +258,15 @@ impl OwnShader {
     /// Says that something is wrong with a part of the module.
     #[must_use]
     pub fn error_at(&self, span: Span, message: String) -> ShaderError {
-        ShaderError { file: self.file.clone(), place: self.place(span), message }
+        let found = span.to_range().and_then(|range| located(&self.sources, self.prelude, range.start));
+        let (file, place) = found.map_or((self.file.as_str(), None), |(file, place)| (file, Some(place)));
+        ShaderError { file: file.to_owned(), place, message }
     }
 
-    /// Returns where in the user's text a part of the module stands.
+    /// Returns where in the user's text, or in a file that it includes, a part of the module stands.
     #[must_use]
     pub fn place(&self, span: Span) -> Option<Place> {
-        span.to_range().and_then(|range| place(&self.source, self.prelude, range.start))
+        self.error_at(span, String::new()).place
     }
 }
 
@@ -255,8 +300,7 @@ fn definition(bytes: &[u8], function: &str) -> Option<Place> {
     text.match_indices(function).find(is_defined).map(|(at, _)| Place::of(text, at))
 }
 
-/// The place of a byte that naga saw: nothing for what was put before the user's text, its end for what was put behind.
-fn place(text: &str, prelude: usize, offset: usize) -> Option<Place> {
-    let offset = offset.checked_sub(prelude).filter(|_| !text.is_empty())?;
-    Some(Place::of(text, offset))
+/// The file and the place of a byte that naga saw: nothing for what was put before the user's text, its end for what was put behind.
+fn located(sources: &Sources, prelude: usize, offset: usize) -> Option<(&str, Place)> {
+    sources.locate(offset.checked_sub(prelude)?)
 }

@@ -8,7 +8,6 @@
 
 use super::body::Body;
 use super::derivative;
-use super::error::Fault;
 use super::invalid::called_by;
 use super::mapping::reached_from;
 use super::signature;
@@ -25,6 +24,9 @@ use std::collections::BTreeMap;
 /// Along screen x and along screen y.
 const AXES: usize = 2;
 
+/// How much texture coordinates change in a pixel, the first along x and the second along y: a texel of a texture of 1024.
+const TEXEL: f32 = 1.0 / 1024.0;
+
 /// A function that knows the differences of its parameters.
 struct Twin {
     function: Handle<Function>,
@@ -35,45 +37,20 @@ struct Twin {
 }
 
 /// Puts a function that takes no derivatives in the place of `target`, where that takes any: it has `dpdx` and `dpdy` among its
-/// parameters. `name` is what the user calls it.
-///
-/// # Errors
-///
-/// A derivative where the function takes something that has none.
-pub(super) fn wrap(
-    module: &mut Module,
-    target: Handle<Function>,
-    name: &str,
-) -> Result<Handle<Function>, Fault> {
+/// parameters. What is not understood here is refused elsewhere, in words of its own.
+pub(super) fn wrap(module: &mut Module, target: Handle<Function>) -> Handle<Function> {
     let reached = reached_from(module, target);
-    let first = reached.iter().find_map(|&function| {
-        let function = &module.functions[function];
-        let place = |at| function.expressions.get_span(at).to_range();
-        function.expressions.iter().find_map(|(at, expression)| match *expression {
-            // The front end of GLSL knows the place of the argument alone.
-            Expression::Derivative { expr, .. } => Some(place(at).or_else(|| place(expr))),
-            _ => None,
-        })
+    let takes_any = reached.iter().any(|&function| {
+        let mut expressions = module.functions[function].expressions.iter();
+        expressions.any(|(_, expression)| matches!(expression, Expression::Derivative { .. }))
     });
-    let Some(at) = first else { return Ok(target) };
-    let without = ["texcoord", "lod"].into_iter().find(|known| {
-        module.functions[target].arguments.iter().any(|argument| argument.name.as_deref() == Some(known))
-    });
-    if let Some(without) = without {
-        let message = format!(
-            "a derivative, and `{name}` takes `{without}`, whose derivatives are not known; hand it the derivatives as parameters"
-        );
-        return Err(Fault::new(message).at(at));
+    if !takes_any {
+        return target;
     }
     let mut changed = module.clone();
-    // What is not understood here is refused elsewhere, in words of its own.
-    Ok(match twins(&mut changed, target) {
-        Some(twin) => {
-            *module = changed;
-            call(module, target, &twin)
-        }
-        None => target,
-    })
+    let Some(twin) = twins(&mut changed, target) else { return target };
+    *module = changed;
+    call(module, target, &twin)
 }
 
 /// Writes the twins of a function and of all that it calls.
@@ -168,8 +145,9 @@ fn call(module: &mut Module, target: Handle<Function>, twin: &Twin) -> Handle<Fu
         for (of, _) in with {
             handed.push(match of.name.as_deref() {
                 Some("position") => argument(&mut body, derivative),
-                Some("pixel") => {
-                    let step = |along: usize| Literal::F32(if along == axis { 1.0 } else { 0.0 });
+                Some(of_plane @ ("pixel" | "texcoord")) => {
+                    let size = if of_plane == "pixel" { 1.0 } else { TEXEL };
+                    let step = |along: usize| Literal::F32(if along == axis { size } else { 0.0 });
                     let components =
                         [step(0), step(1)].map(|one| body.append(Expression::Literal(one))).to_vec();
                     body.emit(Expression::Compose { ty: of.ty, components })

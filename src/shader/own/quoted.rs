@@ -2,7 +2,9 @@
 //! strings of C++.
 
 use super::error::Fault;
+use super::options::THRESHOLD;
 use super::scan::tokens;
+use super::unit::likely;
 use core::ops::Range;
 use std::collections::BTreeSet;
 
@@ -10,21 +12,45 @@ use std::collections::BTreeSet;
 struct Literal {
     /// What stands between the quotes.
     at: Range<usize>,
+    /// The same with them.
+    whole: Range<usize>,
     /// Whether it ends with its line; a shader is then made of many.
     is_line: bool,
 }
 
 /// Blanks all but the string literal, or the literals that follow each other, in which `function` is defined; nothing moves. Where
-/// the text defines it outside of all literals, it is a shader as it stands: headers of shaders have the endings of C.
+/// the text defines it outside of all literals, it is a shader as it stands: headers of shaders have the endings of C. Where none is
+/// named, one that sounds like it is taken, and otherwise the text that discards.
 ///
 /// # Errors
 ///
 /// No literal that defines it, and several.
-pub(super) fn uncovered(text: &str, function: &str) -> Result<String, Fault> {
+pub(super) fn uncovered(text: &str, function: &mut String) -> Result<String, Fault> {
     let literals = literals(text);
-    let defines = |literal: &&Literal| defined(&text[literal.at.clone()], function).is_some();
-    let mut found = literals.iter().enumerate().filter(|(_, literal)| defines(literal));
-    let Some((index, first)) = found.next() else {
+    if *function == THRESHOLD && defined(text, function).is_none() {
+        let parts = literals.iter().map(|literal| &text[literal.at.clone()]);
+        let names: BTreeSet<_> = parts.flat_map(functions).collect();
+        if let Some(name) = likely(&names.iter().map(String::as_str).collect()) {
+            name.clone_into(function);
+        }
+    }
+    let function = function.as_str();
+    let is_nowhere = function == THRESHOLD && defined(text, function).is_none();
+    // Where no name says which function is meant, the literal that discards has it.
+    let defines = |literal: &&Literal| {
+        let text = &text[literal.at.clone()];
+        defined(text, function).is_some() || is_nowhere && text.contains("discard")
+    };
+    let mut defining: Vec<_> = literals.iter().enumerate().filter(|(_, literal)| defines(literal)).collect();
+    // Of several `main` that which discards.
+    if defining.len() > 1 {
+        let discarding = |(_, literal): &&(usize, &Literal)| text[literal.at.clone()].contains("discard");
+        if defining.iter().filter(discarding).count() == 1 {
+            defining.retain(|(_, literal)| text[literal.at.clone()].contains("discard"));
+        }
+    }
+    let mut found = defining.into_iter();
+    let Some((index, _)) = found.next() else {
         if defined(text, function).is_some() {
             return Ok(text.to_owned());
         }
@@ -37,16 +63,13 @@ pub(super) fn uncovered(text: &str, function: &str) -> Result<String, Fault> {
         )));
     };
     let mut parts = vec![index];
-    if first.is_line {
-        let is_next = |a: usize, b: usize| {
-            let between = &text[literals[a].at.end + 1..literals[b].at.start - 1];
-            literals[b].is_line
-                && between.bytes().all(|byte| byte.is_ascii_whitespace() || b",+\\".contains(&byte))
-        };
-        parts.extend((index + 1..literals.len()).take_while(|&next| is_next(next - 1, next)));
-        let before = (0..index).rev().take_while(|&last| is_next(last, last + 1));
-        parts.extend(before.collect::<Vec<_>>());
-    }
+    let is_next = |a: usize, b: usize| {
+        let between = &text[literals[a].whole.end..literals[b].whole.start];
+        between.bytes().all(|byte| byte.is_ascii_whitespace() || b",+\\".contains(&byte))
+    };
+    parts.extend((index + 1..literals.len()).take_while(|&next| is_next(next - 1, next)));
+    let before = (0..index).rev().take_while(|&last| is_next(last, last + 1));
+    parts.extend(before.collect::<Vec<_>>());
     if let Some((_, second)) = found.find(|(index, _)| !parts.contains(index)) {
         let message =
             format!("`{function}` is defined in several string literals of the file; this is the second");
@@ -55,7 +78,7 @@ pub(super) fn uncovered(text: &str, function: &str) -> Result<String, Fault> {
     let mut bytes = text.as_bytes().to_vec();
     let mut kept = vec![false; bytes.len()];
     for part in parts {
-        let Literal { at, is_line } = &literals[part];
+        let Literal { at, is_line, .. } = &literals[part];
         kept[at.clone()].fill(true);
         for hidden in if *is_line { escapes(text, at) } else { holes(text, at) } {
             kept[hidden].fill(false);
@@ -102,11 +125,13 @@ fn literals(text: &str) -> Vec<Literal> {
             start += (until(2, "*/") + 2).min(rest.len());
         } else if let Some(quotes) = ["\"\"\"", "'''"].into_iter().find(|quotes| rest.starts_with(quotes)) {
             let end = until(3, quotes);
-            found.push(Literal { at: start + 3..start + end, is_line: false });
+            let whole = start..(start + end + 3).min(text.len());
+            found.push(Literal { at: start + 3..start + end, whole, is_line: false });
             start += (end + 3).min(rest.len());
         } else if let Some((open, close)) = raw(rest) {
             let end = until(open, &close);
-            found.push(Literal { at: start + open..start + end, is_line: false });
+            let whole = start..(start + end + close.len()).min(text.len());
+            found.push(Literal { at: start + open..start + end, whole, is_line: false });
             start += (end + close.len()).min(rest.len());
         } else if let Some(quote) = rest.bytes().next().filter(|byte| b"`\"'".contains(byte)) {
             let is_line = quote != b'`';
@@ -118,7 +143,7 @@ fn literals(text: &str) -> Vec<Literal> {
             };
             let end = rest.bytes().skip(1).position(ends).map_or(rest.len(), |at| at + 1);
             if rest.as_bytes().get(end) == Some(&quote) {
-                found.push(Literal { at: start + 1..start + end, is_line });
+                found.push(Literal { at: start + 1..start + end, whole: start..start + end + 1, is_line });
             }
             start += (end + 1).min(rest.len());
         } else {
@@ -156,7 +181,7 @@ mod tests {
     use super::*;
 
     fn left(text: &str) -> String {
-        let uncovered = uncovered(text, "f").unwrap();
+        let uncovered = uncovered(text, &mut "f".to_owned()).unwrap();
         assert_eq!(uncovered.len(), text.len());
         assert_eq!(uncovered.matches('\n').count(), text.matches('\n').count());
         uncovered.trim().to_owned()
@@ -184,9 +209,12 @@ mod tests {
     fn a_text_without_such_a_literal_stays() {
         let text = "#define A \"b\"\nfloat f(vec3 p) { return 1.0; }";
         assert_eq!(left(text), text);
-        assert!(uncovered("`float f() {}` + `float f() {}`", "f").is_err());
-        let error =
-            uncovered("a = `float g(vec3 p) { return h(p); } float h() { return 1.0; }`;", "f").unwrap_err();
+        assert!(uncovered("`float f() {}` + `float f() {}`", &mut "f".to_owned()).is_err());
+        let error = uncovered(
+            "a = `float g(vec3 p) { return h(p); } float h() { return 1.0; }`;",
+            &mut "f".to_owned(),
+        )
+        .unwrap_err();
         assert!(error.message.ends_with("functions between quotes are g, h"), "{}", error.message);
         assert_eq!(defined("return f(1.0); fn f(p: vec3f)", "f"), Some("fn"));
         assert_eq!(defined("return f(1.0) + of(2.0)", "f"), None);
@@ -195,7 +223,7 @@ mod tests {
     #[test]
     fn unfinished_literals_end_with_the_text() {
         for text in ["`", "\"", "'a\nb", "R\"(", "\"\"\"a", "/*", "//", "R\"", "`\\", "é`é", ""] {
-            assert!(uncovered(text, "f").is_err(), "{text}");
+            assert!(uncovered(text, &mut "f".to_owned()).is_err(), "{text}");
         }
     }
 }

@@ -3,15 +3,15 @@
 use super::error::Fault;
 use super::front::Front;
 use super::invalid::{self, validate, validate_plain};
-use super::mapping::{self, Taken};
+use super::mapping::{self, Mapped, Taken};
 use super::options::Options;
 use super::signature::{self, Binding};
 use super::variables::{fill_uniforms, overrides, refuse_resources, refuse_undefined};
-use super::{blocks, derivative, pointers, quads};
+use super::{bisection, blocks, derivative, pointers, quads};
 use naga::back::pipeline_constants::{PipelineConstantError, process_overrides};
 use naga::valid::ModuleInfo;
 use naga::{Block, EntryPoint, Expression, Function, Handle, Module, ShaderStage, Span, Statement};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// What is left of a module.
 pub(super) struct Reduced {
@@ -20,6 +20,8 @@ pub(super) struct Reduced {
     pub function: String,
     pub bindings: Vec<Binding>,
     pub taken: Vec<Taken>,
+    /// What was done with a test of an alpha, where it was one.
+    pub bisected: Option<String>,
 }
 
 /// The name of the function afterwards; no language renames it.
@@ -29,7 +31,7 @@ const NAME: &str = "own_threshold";
 const PREFIX: &str = "its_";
 
 /// Keeps the function that is asked for and what it reads, with every value filled in.
-pub(super) fn reduce(front: Front, options: &Options) -> Result<Reduced, Fault> {
+pub(super) fn reduce(front: Front, options: &Options, pixels: &BTreeSet<String>) -> Result<Reduced, Fault> {
     let Front {
         mut module,
         mut filled,
@@ -43,21 +45,22 @@ pub(super) fn reduce(front: Front, options: &Options) -> Result<Reduced, Fault> 
     let mut settings = options.settings.clone();
     settings.retain(|name, _| !defined.contains(name));
     let own = find(&module, &options.function, &functions)?;
-    let mut target = own;
+    let (mut target, bisected) = bisection::wrap(&mut module, own, options, &settings)?;
     if let Some(variables) = &derivatives {
         target = derivative::wrap(&mut module, target, variables);
     }
     if takes_copies {
         target = pointers::wrap(&mut module, target);
     }
-    let (target, taken) = mapping::map(&mut module, target, &options.map, &settings)?;
+    let Mapped { target, notes: taken, members } =
+        mapping::map(&mut module, target, options, &settings, &filled, pixels)?;
     uniforms.retain(|name| taken.iter().all(|taken| taken.name != *name));
     filled.retain(|name| taken.iter().all(|taken| taken.name != *name));
-    let target = quads::wrap(&mut module, target, &options.function)?;
+    let target = quads::wrap(&mut module, target);
     let its_name = if target == own { NAME.to_owned() } else { prefixed(Some(options.function.clone())) };
     let bindings = signature::bind(&module, target, &options.function, &mut settings)?;
     fill_uniforms(&mut module, &uniforms, &mut settings)?;
-    let blocks = blocks::fill(&mut module, &mut settings)?;
+    let blocks = blocks::fill(&mut module, &mut settings, &members)?;
     let constants = overrides(&module, &mut settings)?;
     if let Some(name) = settings.keys().next() {
         return Err(Fault::new(format!(
@@ -91,7 +94,7 @@ pub(super) fn reduce(front: Front, options: &Options) -> Result<Reduced, Fault> 
     }
     rename_the_rest(&mut module);
     let info = validate_plain(&module).map_err(in_words)?;
-    Ok(Reduced { module, info, function: NAME.to_owned(), bindings, taken })
+    Ok(Reduced { module, info, function: NAME.to_owned(), bindings, taken, bisected })
 }
 
 /// Refuses a fragment that is discarded: what runs here answers with a threshold.

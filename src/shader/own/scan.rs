@@ -10,6 +10,8 @@ pub(super) struct Token {
     pub at: Range<usize>,
     /// Round brackets that are open here.
     pub parentheses: usize,
+    /// Braces that are open here.
+    pub braces: usize,
     /// The function in whose body it stands: the index of the token of its name.
     pub function: Option<usize>,
 }
@@ -59,9 +61,14 @@ pub(super) fn tokens(text: &str) -> Result<Vec<Token>, Fault> {
         match bytes[start] {
             b'(' => {
                 if braces == 0 && parentheses == 0 {
-                    let is_name =
-                        |&name: &usize| !matches!(&text[tokens[name].at.clone()], "layout" | "register");
-                    named = tokens.len().checked_sub(1).filter(is_name);
+                    let word = |at: usize| &text[tokens[at].at.clone()];
+                    let is_name = |&name: &usize| {
+                        // An attribute of WGSL stands behind a sign of its own.
+                        let is_attribute = name > 0 && word(name - 1) == "@";
+                        !is_attribute && !matches!(word(name), "layout" | "register" | "packoffset")
+                    };
+                    // The name stays where an attribute of the result follows.
+                    named = tokens.len().checked_sub(1).filter(is_name).or(named);
                 }
                 parentheses += 1;
             }
@@ -83,18 +90,26 @@ pub(super) fn tokens(text: &str) -> Result<Vec<Token>, Fault> {
         }
         if tokens.last().is_some_and(|last| &text[last.at.clone()] == "#") {
             match &text[at.clone()] {
-                "if" | "ifdef" | "ifndef" => conditions.push((braces, parentheses, named, function)),
+                "if" | "ifdef" | "ifndef" => {
+                    conditions.push(((braces, parentheses, named, function), false));
+                }
                 "elif" | "else" => {
-                    if let Some(&open) = conditions.last() {
+                    if let Some((open, has_others)) = conditions.last_mut() {
+                        (braces, parentheses, named, function) = *open;
+                        *has_others = true;
+                    }
+                }
+                "endif" => {
+                    // Where there is one branch, the other one is empty.
+                    if let Some((open, false)) = conditions.pop() {
                         (braces, parentheses, named, function) = open;
                     }
                 }
-                "endif" => drop(conditions.pop()),
                 _ => {}
             }
         }
         nesting.see(&text[at.clone()]).map_err(|message| Fault::new(message).at(Some(at.clone())))?;
-        tokens.push(Token { at, parentheses, function });
+        tokens.push(Token { at, parentheses, braces, function });
         start += length;
     }
     Ok(tokens)

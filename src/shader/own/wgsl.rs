@@ -1,10 +1,12 @@
 //! WGSL as it is written for an engine or for a browser.
 
 use super::derivative;
+use super::directives::directives;
 use super::error::{Fault, Place};
 use super::front::Front;
 use super::invalid::{joined, validate};
 use super::isolated::isolated;
+use super::items;
 use super::nesting::Nesting;
 use super::options::Options;
 use super::scan::{Token, end_of_file, tokens};
@@ -23,6 +25,9 @@ pub(super) fn read(text: &str, asked: &Options) -> Result<Front, Fault> {
     }
     let mut bytes = text.as_bytes().to_vec();
     blank_imports(&mut bytes, &tokens)?;
+    let directives = directives(text, &tokens);
+    items::blank_others(&mut bytes, text, &tokens, &directives, &asked.function, &asked.names());
+    widen(&mut bytes, &tokens);
     let position = derivative::position(text, &tokens, asked);
     let derivatives = derivative::replace(&mut bytes, &tokens, &asked.function, position);
     // Only ASCII was replaced, by ASCII.
@@ -40,6 +45,30 @@ pub(super) fn read(text: &str, asked: &Options) -> Result<Front, Fault> {
         Some(at) if at.start >= length => end_of_file(text, &tokens).unwrap_or(fault),
         _ => fault,
     })
+}
+
+/// Makes numbers of 16 bits numbers of 32, and push constants what naga calls them.
+fn widen(bytes: &mut [u8], tokens: &[Token]) {
+    let word =
+        |bytes: &[u8], at: usize| tokens.get(at).map_or(Vec::new(), |token| bytes[token.at.clone()].to_vec());
+    for (index, token) in tokens.iter().enumerate() {
+        let at = token.at.clone();
+        match &word(bytes, index)[..] {
+            b"enable" if word(bytes, index + 1) == b"f16" => {
+                tokens[index..(index + 3).min(tokens.len())]
+                    .iter()
+                    .for_each(|token| bytes[token.at.clone()].fill(b' '));
+            }
+            b"f16" => bytes[at].copy_from_slice(b"f32"),
+            b"push_constant" => {
+                bytes[at.clone()].fill(b' ');
+                bytes[at.start..at.start + 9].copy_from_slice(b"immediate");
+            }
+            [b'v', b'e', b'c', b'2'..=b'4', b'h'] => bytes[at.end - 1] = b'f',
+            [b'0'..=b'9', .., b'h'] if !bytes[at.clone()].starts_with(b"0x") => bytes[at.end - 1] = b'f',
+            _ => {}
+        }
+    }
 }
 
 /// What naga's parser says. A single label repeats the message in other words, unless it names a type; of several, each

@@ -1,10 +1,10 @@
 //! What the macros of a GLSL text come to, without expanding them: a few lines of `#define` can stand for more text than
 //! a machine can hold.
 
+use super::super::directives::Directive;
 use super::super::error::Fault;
 use super::super::nesting::Nesting;
 use super::super::scan::Token;
-use super::directives::Directive;
 use std::collections::HashMap;
 
 /// The most words and signs that all macros of a text may come to.
@@ -187,8 +187,8 @@ fn arguments<'s, 't>(words: &'s [Word<'t>]) -> (Vec<&'s [Word<'t>]>, usize) {
 
 #[cfg(test)]
 mod tests {
+    use super::super::super::directives::directives;
     use super::super::super::scan::tokens;
-    use super::super::directives::directives;
     use super::*;
 
     fn measured(text: &str) -> Result<(), String> {

@@ -1,15 +1,15 @@
 //! GLSL of any version: prepared byte for byte, then read as the GLSL 450 that naga knows.
 
-mod directives;
 mod macros;
 mod prepare;
-mod reach;
 mod words;
 
+use super::directives;
 use super::error::Fault;
 use super::front::{Front, filled_by_entry_points};
 use super::invalid::{CIRCLE, validate};
 use super::isolated::isolated;
+use super::items;
 use super::options::Options;
 use super::scan::{Token, end_of_file, tokens};
 use naga::front::glsl::Frontend;
@@ -31,7 +31,7 @@ pub(super) fn reached(
     for directive in directives.iter().filter(|directive| directive.name() == "include") {
         bytes[directive.at.clone()].iter_mut().filter(|byte| **byte != b'\n').for_each(|byte| *byte = b' ');
     }
-    reach::blank_others(&mut bytes, text, tokens, &directives, &asked.function);
+    items::blank_others(&mut bytes, text, tokens, &directives, &asked.function, &asked.names());
     let settings = asked.settings.iter().filter(|(name, _)| directives::is_asked_for(&directives, name));
     let defines = settings.map(|(name, value)| (name.clone(), value.clone())).collect();
     // Nothing but whole tokens was replaced.
@@ -45,8 +45,8 @@ pub(super) fn reached(
 /// Text that is no GLSL or not valid.
 pub(super) fn read(text: &str, asked: &Options, prelude: &mut usize) -> Result<Front, Fault> {
     if asked.function == "main" {
-        let message =
-            "`main` returns nothing that could be tried: name a function that returns the threshold";
+        let message = "`main` has no test of an alpha, as `if (alpha < threshold) discard;` is one: name a function that returns the \
+                       threshold, or that has such a test (--function NAME); --map alpha=NAME says what is tested";
         return Err(Fault::new(message));
     }
     let tokens = tokens(text)?;

@@ -19,11 +19,12 @@
 //! A `main` is appended.
 
 use super::super::derivative::{self, Variables};
+use super::super::directives::{Directive, in_directives, is_asked_for};
 use super::super::error::Fault;
+use super::super::items;
 use super::super::options::Options;
 use super::super::scan::Token;
-use super::directives::{Directive, in_directives, is_asked_for};
-use super::{macros, reach};
+use super::macros;
 
 /// Text that naga reads, and what was taken out of it.
 pub(super) struct Prepared {
@@ -64,6 +65,7 @@ pub(super) fn prepare(
     }
     let settings = asked.settings.iter().filter(|(name, _)| is_asked_for(directives, name));
     defines.extend(settings.map(|(name, value)| (name.clone(), value.clone())));
+    defines.extend(words_of_others(text, tokens, directives));
     let defined = defines.iter().map(|(name, _)| name.clone()).collect();
     mark_strange_characters(&mut bytes, tokens);
     let mut spare = derivative::spare_names(tokens, text.as_bytes());
@@ -85,8 +87,12 @@ pub(super) fn prepare(
         match word(index) {
             "precision" if word(index + 3) == ";" => blank(&tokens[index..index + 4]),
             "highp" | "mediump" | "lowp" => blank(&tokens[index..=index]),
-            "const" if token.parentheses > 0 => blank(&tokens[index..=index]),
-            "in" if !is_name(index + 1) => bytes[token.at.clone()].copy_from_slice(parameter.as_bytes()),
+            "const" if token.parentheses > 0 || in_directive[index] && word(index + 1) == "in" => {
+                blank(&tokens[index..=index]);
+            }
+            "in" if !is_name(index + 1) && !in_directive[index] => {
+                bytes[token.at.clone()].copy_from_slice(parameter.as_bytes())
+            }
             "shader_type" | "render_mode" | "stencil_mode" | "group_uniforms" if is_outside => {
                 let end = (index..tokens.len()).find(|&at| word(at) == ";").unwrap_or(index);
                 blank(&tokens[index..=end]);
@@ -144,7 +150,7 @@ pub(super) fn prepare(
             declaration = index + 1;
         }
     }
-    reach::blank_others(&mut bytes, text, tokens, directives, &asked.function);
+    items::blank_others(&mut bytes, text, tokens, directives, &asked.function, &asked.names());
     macros::measure(text, tokens, directives, |token| bytes[token.at.start] != b' ')?;
     let position = derivative::position(text, tokens, asked);
     let derivatives = derivative::replace(&mut bytes, tokens, &asked.function, position);
@@ -153,6 +159,35 @@ pub(super) fn prepare(
     let prepared = format!("{prelude}{}\nvoid main() {{}}\n", String::from_utf8_lossy(&bytes));
     let prelude = prelude.len();
     Ok(Prepared { text: prepared, prelude, uniforms, initialised, textures, derivatives, defines, defined })
+}
+
+/// Types that GLSL calls otherwise, or has in an extension: what shaders for several languages use.
+const OTHER_TYPES: [(&str, &str); 16] = [
+    ("half", "float"),
+    ("half2", "vec2"),
+    ("half3", "vec3"),
+    ("half4", "vec4"),
+    ("float2", "vec2"),
+    ("float3", "vec3"),
+    ("float4", "vec4"),
+    ("float3x3", "mat3"),
+    ("float4x4", "mat4"),
+    ("float16_t", "float"),
+    ("f16vec2", "vec2"),
+    ("f16vec3", "vec3"),
+    ("f16vec4", "vec4"),
+    ("float32_t", "float"),
+    ("f32vec3", "vec3"),
+    ("f32vec2", "vec2"),
+];
+
+/// Those of them that a text uses and does not define.
+fn words_of_others(text: &str, tokens: &[Token], directives: &[Directive<'_>]) -> Vec<(String, String)> {
+    let is_used = |word: &str| tokens.iter().any(|token| &text[token.at.clone()] == word);
+    let is_defined =
+        |word: &str| directives.iter().any(|d| d.name() == "define" && d.words.get(2) == Some(&word));
+    let missing = OTHER_TYPES.iter().filter(|(word, _)| is_used(word) && !is_defined(word));
+    missing.map(|(word, meaning)| ((*word).to_owned(), (*meaning).to_owned())).collect()
 }
 
 /// Puts `#` in the place of characters that no GLSL has outside of comments: the preprocessor refuses one within a line,

@@ -1,7 +1,7 @@
 //! What naga's parser of GLSL says, in the words of the language.
 
+use super::super::directives::Directive;
 use super::super::error::Fault;
-use super::directives::Directive;
 use core::ops::Range;
 use naga::front::glsl::{ErrorKind, ExpectedToken, ParseErrors};
 

@@ -1,7 +1,7 @@
 //! The lines of a GLSL text that its preprocessor reads, and what stands behind a condition.
 
-use super::super::error::Fault;
-use super::super::scan::Token;
+use super::error::Fault;
+use super::scan::Token;
 use core::ops::Range;
 use std::collections::BTreeMap;
 
@@ -129,7 +129,7 @@ pub(super) fn functions(
 
 #[cfg(test)]
 mod tests {
-    use super::super::super::scan::tokens;
+    use super::super::scan::tokens;
     use super::*;
 
     fn found(text: &str) -> Result<Vec<(String, Option<String>)>, String> {

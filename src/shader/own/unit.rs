@@ -1,0 +1,282 @@
+//! What is read of a file before its parser: the files that it includes, the branches of an engine's conditions, the function that
+//! is meant, and its test of an alpha.
+
+use super::LARGEST_FILE;
+use super::alpha_test::{Dialect, File, rewritten};
+use super::conditions::{dead, left_out, needed};
+use super::directives::{Directive, directives, in_directives};
+use super::error::Fault;
+use super::includes::Includes;
+use super::items::{items, reached};
+use super::options::{Options, THRESHOLD};
+use super::scan::{Token, tokens};
+use super::sources::Sources;
+use core::ops::Range;
+use std::collections::BTreeSet;
+use std::path::Path;
+
+/// A text that is ready for its parser.
+pub(super) struct Unit {
+    pub text: String,
+    /// What is asked of it: the name of the function, and what has to be set so that it is read.
+    pub asked: Options,
+    /// What was done, in sentences.
+    pub notes: Vec<String>,
+    /// Names of what holds the place of the fragment on the screen, whatever they sound like.
+    pub pixels: BTreeSet<String>,
+}
+
+/// Makes a text ready; `sources` knows afterwards where its bytes come from. `folder` is where its file is.
+///
+/// # Errors
+///
+/// What is wrong with the text as a whole, and a test that discards the wrong way around.
+pub(super) fn unit(
+    text: String,
+    dialect: Dialect,
+    asked: &Options,
+    folder: Option<&Path>,
+    sources: &mut Sources,
+) -> Result<Unit, Fault> {
+    let mut notes = Vec::new();
+    let mut asked = asked.clone();
+    let mut text = text;
+    if dialect == Dialect::Wgsl {
+        text = without_holes(&text, &asked);
+    } else {
+        let mut includes = Includes { folders: &asked.include, most: LARGEST_FILE, read: BTreeSet::new() };
+        text = includes.expand(text, sources, folder, 0)?;
+        text = without(&text, |words, lines| Ok([dead(lines), line_macros(&text, words, lines)].concat()))?;
+    }
+    {
+        let words = tokens(&text)?;
+        let lines = directives(&text, &words);
+        let all = items(&text, &words, &lines);
+        let in_directive = in_directives(&lines, words.len());
+        let file = File {
+            text: &text,
+            tokens: &words,
+            directives: &lines,
+            in_directive: &in_directive,
+            items: &all,
+            dialect,
+        };
+        if let Some(name) = meant(&file, &asked) {
+            let note = format!(
+                "there is no function `{THRESHOLD}`, and `{name}` is taken for it (--function names another)"
+            );
+            notes.push(note);
+            asked.function = name;
+        }
+        let mut names = all.iter().filter_map(|item| item.function);
+        let name = names.find(|&name| text[words[name].at.clone()] == asked.function);
+        let place = name.map(|name| words[name].at.start);
+        define(place, &lines, &mut asked, &mut notes);
+    }
+    if dialect == Dialect::Wgsl {
+        let settings = asked.settings.clone();
+        let mut macros = BTreeSet::new();
+        text = without(&text, |_, lines| {
+            macros.extend(
+                lines.iter().flat_map(|line| line.words.iter().skip(2).map(|word| (*word).to_owned())),
+            );
+            left_out(&text, lines, &settings)
+        })?;
+        asked.settings.retain(|name, _| !macros.contains(name));
+    }
+    let words = tokens(&text)?;
+    let lines = directives(&text, &words);
+    let in_directive = in_directives(&lines, words.len());
+    let all = items(&text, &words, &lines);
+    let file = File {
+        text: &text,
+        tokens: &words,
+        directives: &lines,
+        in_directive: &in_directive,
+        items: &all,
+        dialect,
+    };
+    let pixels = pixels(&file);
+    notes.extend(precision(&file, &asked));
+    let Some(test) = rewritten(&file, &asked)? else {
+        drop((words, lines, all));
+        return Ok(Unit { text, asked, notes, pixels });
+    };
+    define(Some(test.at), &lines, &mut asked, &mut notes);
+    let blanked = blanked(&text, test.blank);
+    asked.function = test.function;
+    // What has gone into the test needs no value any more.
+    asked.map.remove(ALPHA);
+    notes.push(test.note);
+    Ok(Unit { text: sources.exchange(&blanked, test.edits), asked, notes, pixels })
+}
+
+/// Blanks ranges of a text.
+fn blanked(text: &str, ranges: Vec<Range<usize>>) -> String {
+    let mut bytes = text.as_bytes().to_vec();
+    for range in ranges {
+        bytes[range].iter_mut().filter(|byte| !byte.is_ascii_whitespace()).for_each(|byte| *byte = b' ');
+    }
+    // Whole words went.
+    String::from_utf8_lossy(&bytes).into_owned()
+}
+
+/// Blanks what is found in a text.
+fn without(
+    text: &str,
+    find: impl FnOnce(&[Token], &[Directive<'_>]) -> Result<Vec<Range<usize>>, Fault>,
+) -> Result<String, Fault> {
+    let words = tokens(text)?;
+    let found = find(&words, &directives(text, &words))?;
+    Ok(if found.is_empty() { text.to_owned() } else { blanked(text, found) })
+}
+
+/// Fills the holes of an engine's templates in WGSL, `#{NAME}`, with what `--set` gives, or 0.
+fn without_holes(text: &str, asked: &Options) -> String {
+    let mut filled = text.to_owned();
+    while let Some(start) = filled.find("#{") {
+        let Some(length) = filled[start..].find('}') else { break };
+        let name = filled[start + 2..start + length].trim();
+        let value =
+            asked.settings.get(name).filter(|value| value.len() <= length).map_or("0", String::as_str);
+        let value = format!("{value:width$}", width = length + 1);
+        filled.replace_range(start..=start + length, &value);
+    }
+    filled
+}
+
+/// Lines that hold nothing but a macro of an engine which the file does not define, as `CBUFFER_END` or `UNITY_INSTANCING_START(a)`.
+fn line_macros(text: &str, tokens: &[Token], lines: &[Directive<'_>]) -> Vec<Range<usize>> {
+    let in_directive = in_directives(lines, tokens.len());
+    let defined: BTreeSet<_> = lines
+        .iter()
+        .filter(|line| line.name() == "define")
+        .filter_map(|line| line.words.get(2).copied())
+        .collect();
+    let word = |at: usize| tokens.get(at).map_or("", |token| &text[token.at.clone()]);
+    let is_first = |at: usize| at == 0 || text[tokens[at - 1].at.end..tokens[at].at.start].contains('\n');
+    let is_loud = |word: &str| {
+        word.len() > 3 && word.bytes().all(|b| b.is_ascii_uppercase() || b.is_ascii_digit() || b == b'_')
+    };
+    let mut found = Vec::new();
+    for at in (0..tokens.len()).filter(|&at| !in_directive[at] && is_first(at)) {
+        let is_outside = tokens[at].function.is_none() && tokens[at].parentheses == 0;
+        if !is_outside || !is_loud(word(at)) || defined.contains(word(at)) {
+            continue;
+        }
+        let mut end = at + 1;
+        if word(end) == "(" {
+            end = (end..tokens.len())
+                .find(|&close| word(close) == ")" && tokens[close].parentheses == 0)
+                .map_or(tokens.len(), |close| close + 1);
+        }
+        let is_alone =
+            end >= tokens.len() || text[tokens[end - 1].at.end..tokens[end].at.start].contains('\n');
+        let is_one_line = !text[tokens[at].at.start..tokens[end - 1].at.end].contains('\n');
+        if is_alone && is_one_line {
+            found.push(tokens[at].at.start..tokens[end - 1].at.end);
+        }
+    }
+    found
+}
+
+/// What `--map` calls the alpha that is tested.
+pub(super) const ALPHA: &str = "alpha";
+
+/// Sets what has to be defined so that a place is read.
+fn define(at: Option<usize>, lines: &[Directive<'_>], asked: &mut Options, notes: &mut Vec<String>) {
+    for (name, value) in at.map(|at| needed(lines, at)).unwrap_or_default() {
+        if !asked.settings.contains_key(&name) {
+            notes
+                .push(format!("`{name}` is defined as {value}, since `{}` stands behind it", asked.function));
+            asked.settings.insert(name, value);
+        }
+    }
+}
+
+/// The function that is meant where none is named and none has the name that goes without saying: the only one that sounds like a
+/// hashed threshold, or the only one that has a test of an alpha; nothing where that is not certain.
+fn meant(file: &File<'_, '_>, asked: &Options) -> Option<String> {
+    let functions: BTreeSet<&str> =
+        file.items.iter().filter_map(|item| item.function).map(|name| file.word(name)).collect();
+    if asked.function != THRESHOLD || functions.contains(THRESHOLD) {
+        return None;
+    }
+    let has_test = |name: &&&str| {
+        let asked = Options { function: (**name).to_owned(), ..asked.clone() };
+        rewritten(file, &asked).is_ok_and(|test| test.is_some())
+    };
+    let tests = || {
+        let mut found = functions.iter().filter(has_test);
+        found.next().copied().filter(|_| found.next().is_none())
+    };
+    likely(&functions).or_else(tests).map(str::to_owned)
+}
+
+/// The only name of several that says that it is a hashed threshold.
+pub(super) fn likely<'n>(names: &BTreeSet<&'n str>) -> Option<&'n str> {
+    let is_like = |name: &str, parts: &[&str]| {
+        let plain: String = name.chars().filter(|c| *c != '_').flat_map(char::to_lowercase).collect();
+        parts.iter().all(|part| plain.contains(part))
+    };
+    let kinds: [&[&str]; 10] = [
+        &["hash", "thresh"],
+        &["thresh"],
+        &["hash", "cutoff"],
+        &["alpha", "hash"],
+        &["hash", "test"],
+        &["hash", "opacity"],
+        &["hash", "discard"],
+        &["hash", "clip"],
+        &["should", "discard"],
+        &["alpha", "test"],
+    ];
+    kinds.into_iter().find_map(|parts| {
+        let mut found = names.iter().filter(|name| is_like(name, parts));
+        found.next().copied().filter(|_| found.next().is_none())
+    })
+}
+
+/// Says that fewer bits than 32 are not what is tried, where the function comes to words that ask for them.
+fn precision(file: &File<'_, '_>, asked: &Options) -> Option<String> {
+    const NARROW: [&str; 18] = [
+        "mediump",
+        "lowp",
+        "half",
+        "half2",
+        "half3",
+        "half4",
+        "float16_t",
+        "f16vec2",
+        "f16vec3",
+        "f16vec4",
+        "min16float",
+        "min16float2",
+        "min16float3",
+        "min16float4",
+        "f16",
+        "vec2h",
+        "vec3h",
+        "vec4h",
+    ];
+    let names = [asked.function.as_str()].into_iter().collect();
+    let all = reached(file.text, file.tokens, file.directives, file.items, names);
+    let word = NARROW.iter().find(|word| all.contains(*word))?;
+    Some(format!(
+        "`{word}` is computed in 32 bits; what 16 make of the threshold on a device that has them is tried with --on device-model"
+    ))
+}
+
+/// What a text marks as the place on the screen: `@builtin(position)` in WGSL, `: SV_Position` in HLSL.
+fn pixels(file: &File<'_, '_>) -> BTreeSet<String> {
+    let marked = (1..file.tokens.len()).filter_map(|at| match file.dialect {
+        Dialect::Wgsl if file.word(at) == "builtin" && file.word(at + 2) == "position" => {
+            Some(file.word(at + 4))
+        }
+        Dialect::Hlsl if file.word(at).eq_ignore_ascii_case("sv_position") && at > 1 => {
+            Some(file.word(at - 2))
+        }
+        Dialect::Wgsl | Dialect::Hlsl | Dialect::Glsl => None,
+    });
+    marked.map(str::to_owned).collect()
+}
