@@ -167,3 +167,67 @@ fn noise_of_a_size_that_is_not_declared_is_told_with_the_size() {
         }
     }
 }
+
+/// Listing 1 in GLSL with some of its parts exchanged.
+fn listing(parts: &[(&str, &str)]) -> String {
+    const TEXT: &str = "float hash(vec2 p) { return fract(1.0e4 * sin(17.0 * p.x + 0.1 * p.y) * (0.1 + abs(sin(13.0 * p.y + p.x)))); }
+float hash3D(vec3 p) { return hash(vec2(hash(p.xy), p.z)); }
+float threshold(vec3 position) {
+    float d = max(length(dFdx(position)), length(dFdy(position)));
+    float scale = 1.0 / d;
+    float l = log2(scale);
+    float f = fract(l);
+    float x = mix(hash3D(floor(exp2(floor(l)) * position)), hash3D(floor(exp2(ceil(l)) * position)), f);
+    float a = min(f, 1.0 - f);
+    float b = 2.0 * a * (1.0 - a);
+    float t = x < a ? x * x / b : (x < 1.0 - a ? (x - 0.5 * a) / (1.0 - a) : 1.0 - (1.0 - x) * (1.0 - x) / b);
+    return clamp(t, 1e-6, 1.0);
+}";
+    parts.iter().fold(TEXT.to_owned(), |text, (from, to)| {
+        assert!(text.contains(from), "{from}");
+        text.replace(from, to)
+    })
+}
+
+#[test]
+fn what_an_audit_was_told_wrongly_is_told() {
+    let subject = |text: &str, variant| {
+        let shader = own::parse("own.glsl", own::Language::Glsl, text.as_bytes(), &own::Options::default());
+        let shader = shader.unwrap_or_else(|error| panic!("{error}"));
+        shaders::interpreted("own.glsl", &shader, DeviceModel::ACCURATE, variant)
+            .unwrap_or_else(|error| panic!("{error}"))
+    };
+    let twice = ("length(dFdy(position))", "length(dFdx(position))");
+    let (first, second) = (("x < a ?", "f < a ?"), ("x < 1.0 - a ?", "f < 1.0 - a ?"));
+    let bayer = "float threshold(vec2 pixel) {
+    int m[16] = int[16](0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5);
+    ivec2 p = ivec2(pixel);
+    return pow((float(m[(p.y & 3) * 4 + (p.x & 3)]) + 0.5) / 16.0, 2.2);
+}";
+    for (text, variant, wanted) in [
+        (
+            listing(&[twice, first, second, ("1e-6", "0.0")]),
+            Variant::Isotropic,
+            &["dfdx-twice", "case-by-lerp-factor", "clamped-at-zero"][..],
+        ),
+        (listing(&[("1e-6", "0.063")]), Variant::Isotropic, &["clamped-by-255ths"]),
+        (listing(&[("1.0 / d", "1.0 / (1.0 + d)")]), Variant::Isotropic, &["one-plus-derivative"]),
+        (bayer.to_owned(), Variant::Isotropic, &["screen-space", "gamma-curve"]),
+        (
+            listing(&[
+                ("max(length(dFdx(position)), length(dFdy(position)))", "length(fwidth(position))"),
+                ("log2", "log"),
+            ]),
+            Variant::Isotropic,
+            &["fwidth", "natural-logarithm"],
+        ),
+        (listing(&[("1.0 / d", "1.0 / (0.05 * d)")]), Variant::Isotropic, &["noise-of-another-size"]),
+        (listing(&[]), Variant::Anisotropic, &["other-variant"]),
+        (bayer.replace("pow(", "(").replace(", 2.2)", ")"), Variant::Isotropic, &["screen-space"]),
+    ] {
+        assert_eq!(found(&subject(&text, variant)), wanted, "{text}");
+    }
+    // A number says how large it is.
+    let small = subject(&listing(&[("1.0 / d", "1.0 / (0.05 * d)")]), Variant::Isotropic);
+    assert!(cause::examine(&small).found[0].shown.contains("0.05 times as wide"));
+}

@@ -45,6 +45,8 @@ mod own_shader;
 mod shader_parity;
 #[cfg(feature = "shader")]
 mod shader_text;
+#[cfg(feature = "shader")]
+mod shipped;
 
 #[cfg(feature = "render")]
 mod extension_effects;

@@ -15,6 +15,7 @@ use hashed_alpha::report::by_model::by_model;
 use hashed_alpha::report::cause::causes;
 use hashed_alpha::report::html::Run;
 use hashed_alpha::report::{directory, json, text};
+use hashed_alpha::shader::spelling::likely;
 use indicatif::ProgressBar;
 use std::io::Write;
 use std::path::Path;
@@ -152,7 +153,11 @@ fn chosen_claims(typed: &[String]) -> Result<Vec<Claim>, Failure> {
     if let Some(unknown) = typed.iter().find(|typed| !claims::ALL.iter().any(|claim| is_meant(claim, typed)))
     {
         let names: Vec<_> = claims::ALL.iter().map(|claim| claim.id).collect();
-        return Err(Failure::Usage(format!("unknown claim `{unknown}`; known are {}", names.join(", "))));
+        let likely = likely(unknown, &names);
+        return Err(Failure::Usage(format!(
+            "unknown claim `{unknown}`.{likely} Known are {}",
+            names.join(", ")
+        )));
     }
     let wanted = |claim: &&Claim| typed.is_empty() || typed.iter().any(|typed| is_meant(claim, typed));
     Ok(claims::ALL.iter().filter(wanted).copied().collect())

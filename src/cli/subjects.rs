@@ -6,10 +6,10 @@ use super::output;
 use super::shader_files::ShaderFile;
 use hashed_alpha::check::shaders;
 use hashed_alpha::check::{Frames, Subject, subject::Precision};
-use hashed_alpha::render::scene_file::diagnostic::likely;
 use hashed_alpha::scene::{Fragment, Scene};
 use hashed_alpha::shader::interpreter::DeviceModel;
 use hashed_alpha::shader::own::{self, ENDINGS, OwnShader};
+use hashed_alpha::shader::spelling::likely;
 use hashed_alpha::threshold::hash::{HashKind, UnknownName};
 use hashed_alpha::threshold::pipeline::Pipeline;
 use hashed_alpha::threshold::robust::{Join, Robust};
@@ -134,8 +134,11 @@ fn unknown(word: &str) -> Failure {
     if let Some(instead) = own::instead_of(Path::new(file)) {
         return Failure::Usage(format!("{file}: {instead}"));
     }
+    let known =
+        ["paper", "paper:isotropic", "paper:anisotropic", "robust", "robust:isotropic", "robust:anisotropic"];
+    let likely = likely(word, &known);
     Failure::Usage(format!(
-        "unknown subject `{word}`; known are paper:isotropic, paper:anisotropic, robust:isotropic, \
+        "unknown subject `{word}`.{likely} Known are paper:isotropic, paper:anisotropic, robust:isotropic, \
          robust:anisotropic, each with gpu: before it too, hash: with the name of a hash behind it, and files that end in {ENDINGS}"
     ))
 }
@@ -384,7 +387,8 @@ mod tests {
         assert_eq!(names(&["paper", "paper:isotropic"], &[]), names(&["paper"], &[]));
         assert_eq!(names(&["paper"], &[]).unwrap().len(), 4);
         let error = names(&["paper", "pap"], &[]).unwrap_err();
-        assert!(error.starts_with("unknown subject `pap`; known are paper:isotropic, "), "{error}");
+        let wanted = "unknown subject `pap`. Did you mean `paper`? Known are paper:isotropic, ";
+        assert!(error.starts_with(wanted), "{error}");
     }
 
     #[test]

@@ -9,3 +9,4 @@ pub mod export;
 pub mod gpu;
 pub mod interpreter;
 pub mod own;
+pub mod spelling;

@@ -12,6 +12,7 @@ use hashed_alpha::threshold::two_scale::Variant;
 use proptest::prelude::*;
 use std::path::{Path, PathBuf};
 
+mod as_shipped;
 mod derivatives;
 mod hostile;
 mod refused;

@@ -17,7 +17,7 @@ fn what_is_refused_is_named_with_its_place() {
         ),
         (
             "fn other() -> f32 { return 1.0; }",
-            "own.wgsl: there is no function `threshold`; --function NAME takes one of another name; functions are other; it",
+            "own.wgsl: there is no function `threshold`. --function NAME takes one of another name; functions are other; it",
         ),
         ("\n fn threshold() -> u32 { return 1u; }", "own.wgsl:2:2: `threshold` returns u32; it returns f32"),
         (
@@ -279,6 +279,8 @@ float third() { return 1.0; }";
     let error = glsl(text, &mine).unwrap_err();
     let listed = "functions are other (behind `#ifdef USE_ALPHAHASH`), third, threshold (behind `#ifdef USE_ALPHAHASH`);";
     assert!(error.contains("--function NAME") && error.contains(listed), "{error}");
+    let near = Options { function: "thrid".to_owned(), ..Options::default() };
+    assert!(glsl(text, &near).unwrap_err().contains("there is no function `thrid`. Did you mean `third`?"));
     let error = wgsl("fn a(p: vec3<f32>) -> f32 { return dpdx(p.x); }", &mine).unwrap_err();
     assert!(error.contains("functions are a;"), "{error}");
     // Behind its condition it is read, and what it comes to counts.

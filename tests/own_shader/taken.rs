@@ -468,10 +468,13 @@ fn a_user_says_what_other_names_mean() {
     let shader = glsl(&text, &asked).unwrap();
     assert_eq!(threshold(&shader, [0.375, 0.0, 0.0]), 0.375);
     for (pair, wanted) in [
-        (("place", "here"), "--map place=here: a fragment has position, dpdx, dpdy, pixel"),
+        (
+            ("place", "here"),
+            "--map place=here: a fragment has no `place`. It has position, dpdx, dpdy, pixel",
+        ),
         (
             ("position", "gone"),
-            "--map position=gone: no `gone` waits for a value; what does is here, a, b, jitter",
+            "--map position=gone: no `gone` waits for a value. What does is here, a, b, jitter",
         ),
         (("lod", "here"), "--map lod=here: `here` is vec3<f32>, which nothing makes out of f32"),
     ] {

@@ -194,6 +194,39 @@ pub(super) fn laws(values: &[f64]) -> Vec<Law> {
     found
 }
 
+/// What the few values of a matrix, which lie at even distances, have been through; nothing where they still do, or where nothing
+/// explains it.
+pub(super) fn bent_steps(values: &[f64]) -> Option<(Slip, String)> {
+    /// Fewer have no distances to compare, more are no matrix.
+    const STEPS: core::ops::RangeInclusive<usize> = 4..=1024;
+    /// How much the distances of even steps differ, as a share.
+    const EVEN: f64 = 0.02;
+    /// Of displays, and squares.
+    const POWERS: [f64; 6] = [2.2, 1.0 / 2.2, 2.0, 0.5, 2.4, 1.0 / 2.4];
+    let steps = unique(values);
+    if !STEPS.contains(&steps.len()) {
+        return None;
+    }
+    let is_even = |bend: Option<Bend>| {
+        let straight: Vec<f64> =
+            steps.iter().map(|&step| bend.map_or(step, |bend| bend.straight(step))).collect();
+        let mean = (straight[straight.len() - 1] - straight[0]) / (straight.len() - 1) as f64;
+        straight.windows(2).all(|pair| (pair[1] - pair[0] - mean).abs() <= EVEN * mean)
+    };
+    if is_even(None) {
+        return None;
+    }
+    let count = steps.len();
+    let curves = [true, false].map(|encoded| {
+        let what = if encoded { "encoded for" } else { "decoded from" };
+        (named("srgb-curve"), Bend::Srgb { encoded }, format!("{what} sRGB"))
+    });
+    let powers = POWERS
+        .map(|power| (named("gamma-curve"), Bend::Power(power), format!("taken to the power of {power:.2}")));
+    let (slip, _, what) = powers.into_iter().chain(curves).find(|(_, bend, _)| is_even(Some(*bend)))?;
+    Some((slip, format!("the {count} different thresholds are even steps {what}")))
+}
+
 /// What stands in for Eq. 2 where all weight is on one octave, undone: such that the value is the hash again.
 pub(super) struct Undone {
     values: Vec<f64>,

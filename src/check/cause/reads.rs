@@ -1,6 +1,6 @@
 //! What a threshold reads of a fragment that it should not, and whether it reads the position at all.
 
-use super::law::{laws, unique};
+use super::law::{bent_steps, laws, unique};
 use super::probe::{SAME, places};
 use super::slip::{Found, Slip, found, named};
 use crate::check::{Frames, Subject};
@@ -121,7 +121,9 @@ pub(super) fn look(subject: &Subject<'_>, rng: &mut Xoshiro256PlusPlus) -> Readi
             all.push(found(OBJECT, shown));
         }
         let laws = laws(&values);
-        if laws.iter().all(|law| law.slip.is_some()) {
+        if let Some((slip, shown)) = bent_steps(&values) {
+            all.push(found(slip, shown));
+        } else if laws.iter().all(|law| law.slip.is_some()) {
             all.extend(laws.into_iter().filter_map(|law| Some(found(law.slip?, law.shown))).take(1));
         }
     }

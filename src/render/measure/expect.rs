@@ -1,8 +1,9 @@
 //! What a scene must show, in a form that a machine checks.
 
 use super::metrics::Metrics;
-use crate::render::scene_file::diagnostic::{Diagnostic, likely};
+use crate::render::scene_file::diagnostic::Diagnostic;
 use crate::render::scene_file::schema::Expectation;
+use crate::shader::spelling::likely;
 
 /// An expectation and what came out.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,5 +1,7 @@
 //! What is wrong with a scene file, at which key, and what was likely meant.
 
+use crate::shader::spelling::likely;
+
 /// What is wrong, and where.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
@@ -78,18 +80,6 @@ pub(in crate::render) fn plain(key: &str, message: &str) -> String {
     if key.is_empty() { text } else { format!("`{key}`: {text}") }
 }
 
-/// Asks for the word that was likely meant, with a space in front; nothing where none is near.
-#[must_use]
-pub fn likely(wrong: &str, known: &[&str]) -> String {
-    nearest(wrong, known).map_or_else(String::new, |near| format!(" Did you mean `{near}`?"))
-}
-
-/// The known word with the fewest edits, if they are fewer than half of its letters.
-fn nearest<'a>(wrong: &str, known: &[&'a str]) -> Option<&'a str> {
-    let (edits, near) = known.iter().map(|near| (strsim::levenshtein(wrong, near), *near)).min()?;
-    (2 * edits <= near.chars().count().max(2)).then_some(near)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -115,11 +105,5 @@ mod tests {
             let plain = plain("k", message);
             assert!(plain.contains(expected), "{plain}");
         }
-    }
-
-    #[test]
-    fn only_a_near_word_is_proposed() {
-        assert_eq!(nearest("hasht", &["fixed", "hashed"]), Some("hashed"));
-        assert_eq!(nearest("zzz", &["fixed", "hashed"]), None);
     }
 }

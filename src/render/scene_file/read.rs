@@ -1,6 +1,6 @@
 //! Scene files: TOML in, a checked [`SceneFile`] or an error with file, line, column and the likely remedy out.
 
-use super::diagnostic::{Diagnostic, likely, place, plain, suggest};
+use super::diagnostic::{Diagnostic, place, plain, suggest};
 use super::limits;
 use super::schema::{SceneFile, Takes};
 use super::spans::{Span, Spans};

@@ -7,6 +7,7 @@ use super::options::Options;
 use super::signature::{self, described, described_inner};
 use super::unit::ALPHA;
 use super::variables::written_by;
+use crate::shader::spelling::likely;
 use core::fmt;
 use naga::{
     AddressSpace, Expression, Function, FunctionArgument, FunctionResult, GlobalVariable, Handle,
@@ -287,13 +288,18 @@ pub(super) fn map(
     for (meaning, name) in said.iter().filter(|(meaning, _)| *meaning != ALPHA) {
         let Some(meaning) = meanings().find(|known| known == meaning) else {
             let known: Vec<_> = meanings().chain([ALPHA]).collect();
-            return Err(Fault::new(format!("--map {meaning}={name}: a fragment has {}", known.join(", "))));
+            let likely = likely(meaning, &known);
+            let known = known.join(", ");
+            return Err(Fault::new(format!(
+                "--map {meaning}={name}: a fragment has no `{meaning}`.{likely} It has {known}"
+            )));
         };
         let Some(item) = items.iter().find(|item| item.is_called(name)) else {
             let known: Vec<_> = items.iter().map(|item| item.name.as_str()).collect();
+            let likely = likely(name, &known);
             let known = if known.is_empty() { "nothing".to_owned() } else { known.join(", ") };
             return Err(Fault::new(format!(
-                "--map {meaning}={name}: no `{name}` waits for a value; what does is {known}"
+                "--map {meaning}={name}: no `{name}` waits for a value.{likely} What does is {known}"
             )));
         };
         if !is_made(module, meaning, item.ty) {

@@ -193,7 +193,9 @@ fn read_text(
             let uncovered = quoted::uncovered(text, &mut options.function)?;
             let is_wgsl = match quoted::defined(&uncovered, &options.function) {
                 Some(word) => word == "fn",
-                None => quoted::functions(&uncovered).iter().any(|name| quoted::defined(&uncovered, name) == Some("fn")),
+                None => quoted::functions(&uncovered)
+                    .iter()
+                    .any(|name| quoted::defined(&uncovered, name) == Some("fn")),
             };
             (uncovered, if is_wgsl { Dialect::Wgsl } else { Dialect::Glsl })
         }

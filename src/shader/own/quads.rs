@@ -24,9 +24,6 @@ use std::collections::BTreeMap;
 /// Along screen x and along screen y.
 const AXES: usize = 2;
 
-/// How much texture coordinates change in a pixel, the first along x and the second along y: a texel of a texture of 1024.
-const TEXEL: f32 = 1.0 / 1024.0;
-
 /// A function that knows the differences of its parameters.
 struct Twin {
     function: Handle<Function>,
@@ -126,7 +123,8 @@ const fn is_float(inner: &TypeInner) -> bool {
     }
 }
 
-/// Calls a twin with the differences that a fragment has: those of the position, and one pixel along each axis.
+/// Calls a twin with the differences that a fragment has: those of the position, one pixel along each axis, and of texture coordinates
+/// as many units as the position moves by.
 fn call(module: &mut Module, target: Handle<Function>, twin: &Twin) -> Handle<Function> {
     let vector = module.types.insert(signature::type_of("dpdx"), Span::UNDEFINED);
     let called = &module.functions[target];
@@ -146,10 +144,16 @@ fn call(module: &mut Module, target: Handle<Function>, twin: &Twin) -> Handle<Fu
             handed.push(match of.name.as_deref() {
                 Some("position") => argument(&mut body, derivative),
                 Some(of_plane @ ("pixel" | "texcoord")) => {
-                    let size = if of_plane == "pixel" { 1.0 } else { TEXEL };
-                    let step = |along: usize| Literal::F32(if along == axis { size } else { 0.0 });
-                    let components =
-                        [step(0), step(1)].map(|one| body.append(Expression::Literal(one))).to_vec();
+                    let size = if of_plane == "pixel" {
+                        body.append(Expression::Literal(Literal::F32(1.0)))
+                    } else {
+                        // A unit of the texture is taken for a unit of the surface.
+                        let arg = argument(&mut body, derivative);
+                        let fun = MathFunction::Length;
+                        body.emit(Expression::Math { fun, arg, arg1: None, arg2: None, arg3: None })
+                    };
+                    let none = body.append(Expression::Literal(Literal::F32(0.0)));
+                    let components = if axis == 0 { vec![size, none] } else { vec![none, size] };
                     body.emit(Expression::Compose { ty: of.ty, components })
                 }
                 _ => body.append(Expression::ZeroValue(of.ty)),

@@ -4,7 +4,8 @@
 use super::error::Fault;
 use super::options::THRESHOLD;
 use super::scan::tokens;
-use super::unit::likely;
+use super::unit::sounding;
+use crate::shader::spelling::likely;
 use core::ops::Range;
 use std::collections::BTreeSet;
 
@@ -30,7 +31,7 @@ pub(super) fn uncovered(text: &str, function: &mut String) -> Result<String, Fau
     if *function == THRESHOLD && defined(text, function).is_none() {
         let parts = literals.iter().map(|literal| &text[literal.at.clone()]);
         let names: BTreeSet<_> = parts.flat_map(functions).collect();
-        if let Some(name) = likely(&names.iter().map(String::as_str).collect()) {
+        if let Some(name) = sounding(&names.iter().map(String::as_str).collect()) {
             name.clone_into(function);
         }
     }
@@ -56,9 +57,10 @@ pub(super) fn uncovered(text: &str, function: &mut String) -> Result<String, Fau
         }
         let parts = literals.iter().map(|literal| &text[literal.at.clone()]);
         let names: Vec<_> = parts.flat_map(functions).collect();
+        let likely = likely(function, &names);
         let known = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
         return Err(Fault::new(format!(
-            "no text between quotes defines a function `{function}`; --function NAME takes one of another name; functions \
+            "no text between quotes defines a function `{function}`.{likely} --function NAME takes one of another name; functions \
              between quotes are {known}"
         )));
     };

@@ -8,6 +8,7 @@ use super::options::Options;
 use super::signature::{self, Binding};
 use super::variables::{fill_uniforms, overrides, refuse_resources, refuse_undefined};
 use super::{bisection, blocks, derivative, pointers, quads};
+use crate::shader::spelling::likely;
 use naga::back::pipeline_constants::{PipelineConstantError, process_overrides};
 use naga::valid::ModuleInfo;
 use naga::{Block, EntryPoint, Expression, Function, Handle, Module, ShaderStage, Span, Statement};
@@ -63,8 +64,12 @@ pub(super) fn reduce(front: Front, options: &Options, pixels: &BTreeSet<String>)
     let blocks = blocks::fill(&mut module, &mut settings, &members)?;
     let constants = overrides(&module, &mut settings)?;
     if let Some(name) = settings.keys().next() {
+        let waiting = waiting(&module, target);
+        let likely = likely(name, &waiting);
+        let waiting = if waiting.is_empty() { "nothing".to_owned() } else { waiting.join(", ") };
         return Err(Fault::new(format!(
-            "nothing that `{name}` could set: no uniform, no override, and no parameter of `{}` has that name",
+            "nothing that `{name}` could set: no uniform, no override, and no parameter of `{}` has that name.{likely} What has a value \
+             from outside is {waiting}",
             options.function
         )));
     }
@@ -97,6 +102,26 @@ pub(super) fn reduce(front: Front, options: &Options, pixels: &BTreeSet<String>)
     Ok(Reduced { module, info, function: NAME.to_owned(), bindings, taken, bisected })
 }
 
+/// What a value can be given to: parameters, uniforms and members of their blocks, and overrides.
+fn waiting(module: &Module, target: Handle<Function>) -> Vec<String> {
+    let parameters = module.functions[target].arguments.iter().filter_map(|argument| argument.name.clone());
+    let uniforms = module.global_variables.iter().filter(|(_, variable)| {
+        variable.name.as_ref().is_some_and(|name| !name.starts_with('_') && variable.init.is_some())
+    });
+    let uniforms = uniforms.flat_map(|(_, variable)| {
+        let name = variable.name.clone().unwrap_or_default();
+        match &module.types[variable.ty].inner {
+            naga::TypeInner::Struct { members, .. } => members
+                .iter()
+                .filter_map(|member| Some(format!("{name}.{}", member.name.as_ref()?)))
+                .collect(),
+            _ => vec![name],
+        }
+    });
+    let overrides = module.overrides.iter().filter_map(|(_, constant)| constant.name.clone());
+    parameters.chain(uniforms).chain(overrides).collect()
+}
+
 /// Refuses a fragment that is discarded: what runs here answers with a threshold.
 fn refuse_discard(module: &Module) -> Result<(), Fault> {
     let is_discard = |statement: &Statement| matches!(statement, Statement::Kill);
@@ -120,28 +145,8 @@ fn find(
         (Some(function), None) => Ok(function),
         (Some(_), Some(second)) => Err(Fault::new(format!("there are several functions `{name}`"))
             .at(module.functions.get_span(second).to_range())),
-        (None, _) => Err(Fault::new(absent(name, functions))),
+        (None, _) => Err(Fault::new(signature::absent(name, functions))),
     }
-}
-
-/// Says that a function is not there, why not, and which ones are.
-fn absent(name: &str, functions: &BTreeMap<String, Option<String>>) -> String {
-    if let Some(Some(condition)) = functions.get(name) {
-        return format!(
-            "there is no function `{name}` here: it stands behind `{condition}`; --set NAME=VALUE defines a macro that a \
-             condition asks for"
-        );
-    }
-    let known = functions.iter().map(|(function, condition)| match condition {
-        Some(condition) => format!("{function} (behind `{condition}`)"),
-        None => function.clone(),
-    });
-    let known: Vec<_> = known.collect();
-    let known = if known.is_empty() { "none".to_owned() } else { known.join(", ") };
-    format!(
-        "there is no function `{name}`; --function NAME takes one of another name; functions are {known}; {}",
-        signature::allowed()
-    )
 }
 
 fn rename_functions(module: &mut Module, target: Handle<Function>) {

@@ -2,6 +2,7 @@
 
 use super::error::Fault;
 use super::setting::{Constant, Value, type_name};
+use crate::shader::spelling::likely;
 use naga::{Function, Handle, Module, Scalar, Type, TypeInner, VectorSize};
 use std::collections::BTreeMap;
 
@@ -100,6 +101,27 @@ pub(super) fn allowed() -> String {
          those that --map position=NAME gives, and numbers or vectors of other names whose value is given by --set NAME=VALUE; or \
          it is a hash, from one vec4<u32> (three indices of a cell and its octave) to u32",
         list.join(", ")
+    )
+}
+
+/// Says that a function is not there, why not, and which ones are.
+pub(super) fn absent(name: &str, functions: &BTreeMap<String, Option<String>>) -> String {
+    if let Some(Some(condition)) = functions.get(name) {
+        return format!(
+            "there is no function `{name}` here: it stands behind `{condition}`; --set NAME=VALUE defines a macro that a \
+             condition asks for"
+        );
+    }
+    let known = functions.iter().map(|(function, condition)| match condition {
+        Some(condition) => format!("{function} (behind `{condition}`)"),
+        None => function.clone(),
+    });
+    let known: Vec<_> = known.collect();
+    let known = if known.is_empty() { "none".to_owned() } else { known.join(", ") };
+    let likely = likely(name, &functions.keys().collect::<Vec<_>>());
+    format!(
+        "there is no function `{name}`.{likely} --function NAME takes one of another name; functions are {known}; {}",
+        allowed()
     )
 }
 

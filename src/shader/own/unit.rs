@@ -4,12 +4,13 @@
 use super::LARGEST_FILE;
 use super::alpha_test::{Dialect, File, rewritten};
 use super::conditions::{dead, left_out, needed};
-use super::directives::{Directive, directives, in_directives};
+use super::directives::{Directive, directives, functions, in_directives};
 use super::error::Fault;
 use super::includes::Includes;
 use super::items::{items, reached};
 use super::options::{Options, THRESHOLD};
 use super::scan::{Token, tokens};
+use super::signature::absent;
 use super::sources::Sources;
 use core::ops::Range;
 use std::collections::BTreeSet;
@@ -68,6 +69,7 @@ pub(super) fn unit(
             notes.push(note);
             asked.function = name;
         }
+        refuse_absent(&file, &asked)?;
         let mut names = all.iter().filter_map(|item| item.function);
         let name = names.find(|&name| text[words[name].at.clone()] == asked.function);
         let place = name.map(|name| words[name].at.start);
@@ -194,6 +196,16 @@ fn define(at: Option<usize>, lines: &[Directive<'_>], asked: &mut Options, notes
     }
 }
 
+/// Refuses a function that is nowhere, before anything else of the file is looked at; a macro may still make it.
+fn refuse_absent(file: &File<'_, '_>, asked: &Options) -> Result<(), Fault> {
+    let is_there = (0..file.tokens.len()).any(|at| file.word(at) == asked.function);
+    if is_there {
+        return Ok(());
+    }
+    let functions = functions(file.text, file.tokens, file.directives)?;
+    Err(Fault::new(absent(&asked.function, &functions)))
+}
+
 /// The function that is meant where none is named and none has the name that goes without saying: the only one that sounds like a
 /// hashed threshold, or the only one that has a test of an alpha; nothing where that is not certain.
 fn meant(file: &File<'_, '_>, asked: &Options) -> Option<String> {
@@ -210,11 +222,11 @@ fn meant(file: &File<'_, '_>, asked: &Options) -> Option<String> {
         let mut found = functions.iter().filter(has_test);
         found.next().copied().filter(|_| found.next().is_none())
     };
-    likely(&functions).or_else(tests).map(str::to_owned)
+    sounding(&functions).or_else(tests).map(str::to_owned)
 }
 
 /// The only name of several that says that it is a hashed threshold.
-pub(super) fn likely<'n>(names: &BTreeSet<&'n str>) -> Option<&'n str> {
+pub(super) fn sounding<'n>(names: &BTreeSet<&'n str>) -> Option<&'n str> {
     let is_like = |name: &str, parts: &[&str]| {
         let plain: String = name.chars().filter(|c| *c != '_').flat_map(char::to_lowercase).collect();
         parts.iter().all(|part| plain.contains(part))

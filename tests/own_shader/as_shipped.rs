@@ -1,0 +1,268 @@
+//! Files as people ship them: tests of an alpha, structures, includes, an engine's conditions, numbers of 16 bits.
+
+use super::*;
+
+fn named(function: &str) -> Options {
+    Options { function: function.to_owned(), ..Options::default() }
+}
+
+fn mapped(function: &str, map: &[(&str, &str)]) -> Options {
+    let map = map.iter().map(|(key, name)| ((*key).to_owned(), (*name).to_owned())).collect();
+    Options { map, ..named(function) }
+}
+
+/// A threshold that every text below has under some name.
+const HASH: &str =
+    "float hash(vec3 p) { return fract(dot(p, vec3(0.375, 0.25, 0.125)) + 0.0 * length(dFdx(p))); }\n";
+const HASH_WGSL: &str =
+    "fn hash(p: vec3f) -> f32 { return fract(dot(p, vec3f(0.375, 0.25, 0.125)) + 0.0 * length(dpdx(p))); }\n";
+const AT: [f64; 3] = [1.5, -0.25, 3.0];
+
+/// That of [`AT`].
+const WANTED: f32 = 1.5 * 0.375 - 0.25 * 0.25 + 3.0 * 0.125;
+
+#[test]
+fn a_test_of_an_alpha_is_the_threshold_that_it_compares_with() {
+    let lines = "vec4 c = texture(map, uv);\nif (c.a < 0.01) discard;\nif (fog) c.rgb *= 2.0;\n";
+    for (text, function) in [
+        (
+            format!(
+                "{HASH}in vec3 vPosition; void main() {{ {lines} if (c.a < hash(vPosition)) discard; color = lit(c); }}"
+            ),
+            "main",
+        ),
+        (
+            format!(
+                "{HASH}in vec3 vPosition; void main() {{ {lines} float t = hash(vPosition); if (hashed) {{ if (t > c.a) {{ discard; }} }} else {{ t = 0.5; }} }}"
+            ),
+            "main",
+        ),
+        (format!("{HASH}bool keep(float alpha, vec3 pos) {{ return alpha >= hash(pos); }}"), "keep"),
+        (
+            format!(
+                "{HASH}bool drop(vec4 color, vec3 pos) {{ float t = hash(pos); return color.a < t ? true : false; }}"
+            ),
+            "drop",
+        ),
+        (format!("{HASH}void test(vec3 pos, float alpha) {{ if (!(alpha >= hash(pos))) discard; }}"), "test"),
+        (
+            format!("{HASH}void test(inout float alpha, vec3 pos) {{ alpha = step(hash(pos), alpha); }}"),
+            "test",
+        ),
+        (
+            format!(
+                "{HASH}void test(inout vec4 color, vec3 pos) {{ if (color.a < hash(pos)) color.a = 0.0; }}"
+            ),
+            "test",
+        ),
+        (
+            format!(
+                "{HASH}float test(float opacity, vec3 pos) {{ return opacity < hash(pos) ? 0.0 : 1.0; }}"
+            ),
+            "test",
+        ),
+    ] {
+        let shader = glsl(&text, &named(function)).unwrap_or_else(|error| panic!("{error}: {text}"));
+        assert_eq!(threshold(&shader, AT), WANTED, "{text}");
+        assert!(
+            shader.notes[0].starts_with("the threshold is what `") && !shader.notes[0].contains("halving"),
+            "{text}"
+        );
+    }
+    let wgsl_text = format!(
+        "{HASH_WGSL}struct In {{ @builtin(position) position: vec4f, @location(0) local_position: vec3f, @location(1) uv: vec2f }}
+@group(0) @binding(0) var map: texture_2d<f32>; @group(0) @binding(1) var samp: sampler;
+@fragment fn fs(in: In, @builtin(front_facing) front: bool) -> @location(0) vec4f {{
+    let c = textureSample(map, samp, in.uv);
+    if c.a < hash(in.local_position) {{ discard; }}
+    return c;
+}}"
+    );
+    let shader = wgsl(&wgsl_text, &named("fs")).unwrap();
+    assert_eq!(threshold(&shader, AT), WANTED);
+    // Which one is meant goes without saying.
+    assert_eq!(threshold(&wgsl(&wgsl_text, &Options::default()).unwrap(), AT), WANTED);
+}
+
+#[test]
+fn the_threshold_of_any_other_test_is_found_by_halving() {
+    for text in [
+        format!(
+            "{HASH}bool test(float alpha, vec3 pos) {{ float b = sqrt(alpha); bool kept = b * b >= hash(pos); return kept; }}"
+        ),
+        format!("{HASH}bool test(float alpha, vec3 pos) {{ alpha *= 0.5; return alpha < 0.5 * hash(pos); }}"),
+        format!(
+            "{HASH}void test(inout vec4 color, vec3 pos) {{ color.a = color.a - hash(pos) < 0.0 ? 0.0 : 1.0; }}"
+        ),
+        format!(
+            "{HASH}void inner(float x, float y) {{ if (x < y) discard; }} void test(float alpha, vec3 pos) {{ inner(alpha, hash(pos)); }}"
+        ),
+        format!(
+            "{HASH}float test(float opacity, vec3 pos) {{ for (int i = 0; i < 3; i++) {{ if (opacity < hash(pos)) return 0.0; }} return opacity; }}"
+        ),
+    ] {
+        let shader = glsl(&text, &named("test")).unwrap_or_else(|error| panic!("{error}: {text}"));
+        let found = threshold(&shader, AT);
+        assert!((found - WANTED).abs() <= 2.0 * f32::EPSILON, "{found}, not {WANTED}: {text}");
+    }
+    let exact = format!(
+        "{HASH}bool test(float k, vec3 pos) {{ float t = hash(pos); bool kept = 2.0 * k >= 2.0 * t; return kept; }}"
+    );
+    let shader = glsl(&exact, &mapped("test", &[("alpha", "k")])).unwrap();
+    assert_eq!(threshold(&shader, AT), WANTED);
+    assert_eq!(shader.notes, ["`test` is a test of `k`: its threshold is found by halving"]);
+    // All are kept, none are, and those between two thresholds.
+    for (comparison, wanted) in [("alpha >= 0.0 * t", 0.0), ("alpha > 1.0 + t", 1.0 + f32::EPSILON)] {
+        let text = format!(
+            "{HASH}void test(float alpha, vec3 pos) {{ float t = hash(pos); bool keep = {comparison}; if (!keep) discard; }}"
+        );
+        assert_eq!(threshold(&glsl(&text, &named("test")).unwrap(), AT), wanted, "{comparison}");
+    }
+    let between = format!(
+        "{HASH}bool test(float alpha, vec3 pos) {{ float t = hash(pos); return abs(alpha - 0.5) < 0.25; }}"
+    );
+    assert!(threshold(&glsl(&between, &named("test")).unwrap(), AT).is_nan());
+}
+
+#[test]
+fn a_test_the_wrong_way_around_is_told_with_its_line() {
+    let text =
+        format!("{HASH}void main() {{\n  vec4 c = texture(map, uv);\n  if (c.a > hash(vPos)) discard;\n}}");
+    let error = glsl(&text, &named("main")).unwrap_err();
+    assert!(
+        error.starts_with("own.glsl:4:7: a fragment is discarded here where `c.a` is above `hash(vPos)`"),
+        "{error}"
+    );
+    let error = glsl(
+        &format!("{HASH}float test(vec3 pos, float k) {{ return hash(pos); }}"),
+        &mapped("test", &[("alpha", "j")]),
+    );
+    assert!(error.unwrap_err().contains("--map alpha=j: `test` has no test of `j`"));
+}
+
+#[test]
+fn structures_blocks_and_pushed_constants_are_taken_apart() {
+    let text = format!(
+        "#version 450
+in Varyings {{ vec3 objPos; vec3 normal; vec2 uv; }} inputs;
+layout(push_constant) uniform Pushed {{ mat4 model; float scale; uint frameIndex; }} pushed;
+{HASH}float threshold() {{ return hash(inputs.objPos * pushed.scale) + 0.0 * float(pushed.frameIndex); }}"
+    );
+    let shader = glsl(&text, &options(&[("pushed.scale", "2")])).unwrap();
+    assert_eq!(threshold(&shader, AT.map(|x| x / 2.0)), WANTED);
+    let taken: Vec<_> = shader.taken.iter().map(ToString::to_string).collect();
+    assert_eq!(taken, ["`objPos` is taken for `position`", "`frameIndex` is taken for `frame`"]);
+    let unset = text.replace("inputs.objPos *", "inputs.objPos * inputs.normal *");
+    let error = glsl(&unset, &options(&[("scale", "2")])).unwrap_err();
+    assert!(error.contains("`inputs.normal` has no value"), "{error}");
+    // The place on the screen may have any name.
+    let text = "struct In { @builtin(position) position: vec4f, @location(0) pos: vec3f }
+fn threshold(in: In) -> f32 { return fract(in.pos.x) + 0.0 * in.position.x; }";
+    let shader = wgsl(text, &options(&[])).unwrap();
+    assert_eq!(threshold(&shader, [0.75, 0.0, 0.0]), 0.75);
+    let taken: Vec<_> = shader.taken.iter().map(ToString::to_string).collect();
+    assert_eq!(taken, ["`pos` is taken for `position`", "`position` is taken for `pixel`"]);
+}
+
+#[test]
+fn the_size_of_a_pixel_may_be_handed_in() {
+    let text = "float threshold(vec3 pos, float pixelSize) { return fract(pos.x / pixelSize); }";
+    let shader = glsl(text, &options(&[])).unwrap();
+    // The longer of 1/8 and 1/4.
+    assert_eq!(threshold(&shader, [0.0625, 0.0, 0.0]), 0.25);
+    let text = "fn threshold(pos: vec3f, d: vec3f) -> f32 { return fract(pos.x / d.x + pos.y / d.y); }";
+    let shader = wgsl(text, &mapped("threshold", &[("pixel_size", "d")])).unwrap();
+    assert_eq!(threshold(&shader, [0.0625, 0.0625, 0.0]), 0.75);
+    let text = "float threshold(vec3 pos, vec2 uv) { return fract(pos.x * 8.0 * length(dFdx(uv))); }";
+    assert_eq!(threshold(&glsl(text, &options(&[])).unwrap(), [0.375, 0.0, 0.0]), 0.375);
+}
+
+#[test]
+fn files_that_are_there_are_included() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        std::fs::write(&path, text).unwrap();
+        path
+    };
+    write(
+        "lib/hash.glsl",
+        "#pragma once\n#include \"more.glsl\"\nfloat hash(vec3 p) { return fract(more(p.x)); }\n",
+    );
+    write("lib/more.glsl", "float more(float x) { return x * 2.0; }\n#include \"hash.glsl\"\n");
+    let main = write(
+        "main.frag",
+        "#include \"nowhere.glsl\"\n#include \"hash.glsl\"\n\nfloat threshold(vec3 pos) { return hash(pos) + lost; }\n",
+    );
+    let with = Options { include: vec![folder.path().join("lib")], ..Options::default() };
+    let error = read(&main, &with).unwrap_err().to_string();
+    assert!(error.contains("main.frag:4:48: `lost` has no value"), "{error}");
+    let text = std::fs::read_to_string(&main).unwrap().replace(" + lost", "");
+    std::fs::write(&main, &text).unwrap();
+    assert_eq!(threshold(&read(&main, &with).unwrap(), [0.375, 0.0, 0.0]), 0.75);
+    let error = read(&main, &Options::default()).unwrap_err().to_string();
+    assert!(error.contains("`#include \"hash.glsl\"` may have it"), "{error}");
+    // A mistake in one is told in it.
+    write("lib/more.glsl", "\n\nfloat more(float x) { return x * y; }\n");
+    let error = read(&main, &with).unwrap_err();
+    assert!(error.to_string().contains("more.glsl:3:34: `y` has no value"), "{error}");
+    write("lib/more.glsl", "float more(float x) { return x; /* }\n");
+    let error = read(&main, &with).unwrap_err().to_string();
+    assert!(error.contains("more.glsl:1:33: a comment that does not end"), "{error}");
+}
+
+#[test]
+fn an_engines_own_preprocessor_is_carried_out() {
+    let text = "#import bevy_pbr::{\n    mesh_functions,\n    forward_io::{VertexOutput, FragmentOutput},\n    utils::hash,\n}
+#ifdef HASHED\nfn threshold(pos: vec3f) -> f32 { return fract(pos.x) * FACTOR; }\n#else\nfn threshold(pos: Unknown) {}\n#endif
+#if SAMPLES > 1\nconst FACTOR = 0.5;\n#else\nconst FACTOR = 1.0;\n#endif
+@group(#{MATERIAL}) @binding(0) var<uniform> material: Material;
+@fragment fn fragment(in: VertexOutput) -> @location(0) vec4f { return shade(in); }";
+    let shader = wgsl(text, &options(&[("SAMPLES", "4")])).unwrap();
+    assert_eq!(threshold(&shader, [0.75, 0.0, 0.0]), 0.375);
+    assert_eq!(threshold(&wgsl(text, &options(&[])).unwrap(), [0.75, 0.0, 0.0]), 0.75);
+    let dead =
+        "#if 0\nfloat threshold(vec3 p) { return (((\n#endif\nfloat threshold(vec3 p) { return fract(p.x); }";
+    assert_eq!(threshold(&glsl(dead, &options(&[])).unwrap(), [0.75, 0.0, 0.0]), 0.75);
+}
+
+#[test]
+fn numbers_of_16_bits_are_computed_in_32_and_said_so() {
+    let note = |word: &str| {
+        format!(
+            "`{word}` is computed in 32 bits; what 16 make of the threshold on a device that has them is tried with --on device-model"
+        )
+    };
+    for (text, word) in [
+        ("half threshold(vec3 position) { half x = position.x; return fract(x); }", "half"),
+        ("float16_t threshold(f16vec3 position) { return float16_t(fract(position.x)); }", "float16_t"),
+        (
+            "precision mediump float;\nfloat threshold(mediump vec3 position) { return fract(position.x); }",
+            "mediump",
+        ),
+    ] {
+        let shader = glsl(text, &options(&[])).unwrap_or_else(|error| panic!("{error}: {text}"));
+        assert_eq!(threshold(&shader, [0.375, 0.0, 0.0]), 0.375);
+        assert_eq!(shader.notes, [note(word)], "{text}");
+    }
+    let text = "enable f16;\nfn threshold(position: vec3<f32>) -> f16 { let p = vec3h(position); return fract(p.x * 2.0h); }";
+    let shader = wgsl(text, &options(&[])).unwrap();
+    assert_eq!((threshold(&shader, [0.375, 0.0, 0.0]), shader.notes.len()), (0.75, 1));
+    assert!(
+        glsl("#define half float\nfloat threshold(vec3 position) { half x = 0.5; return x; }", &options(&[]))
+            .is_ok()
+    );
+}
+
+#[test]
+fn the_function_that_sounds_like_it_is_taken() {
+    let text = format!(
+        "{HASH}float getAlphaHashThreshold(vec3 p) {{ return hash(p); }} float other() {{ return 1.0; }}"
+    );
+    let shader = glsl(&text, &Options::default()).unwrap();
+    assert_eq!(threshold(&shader, AT), WANTED);
+    assert!(shader.notes[0].contains("`getAlphaHashThreshold` is taken for it"), "{:?}", shader.notes);
+    let two = format!("{text} float alphaHashThreshold(vec3 p) {{ return 1.0; }}");
+    assert!(glsl(&two, &Options::default()).unwrap_err().contains("there is no function `threshold`"));
+}
