@@ -227,6 +227,12 @@ fn what_an_audit_was_told_wrongly_is_told() {
     ] {
         assert_eq!(found(&subject(&text, variant)), wanted, "{text}");
     }
+    let example = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/shaders/mistake_case_selection.glsl");
+    let settings = [("alpha_hash_scale".to_owned(), "1".to_owned())].into();
+    let shader = own::read(&example, &own::Options { settings, ..own::Options::default() });
+    let shader = shader.unwrap_or_else(|error| panic!("{error}"));
+    let example = shaders::interpreted("example", &shader, DeviceModel::ACCURATE, Variant::Isotropic);
+    assert_eq!(found(&example.unwrap_or_else(|error| panic!("{error}"))), ["case-by-lerp-factor"]);
     // A number says how large it is.
     let small = subject(&listing(&[("1.0 / d", "1.0 / (0.05 * d)")]), Variant::Isotropic);
     assert!(cause::examine(&small).found[0].shown.contains("0.05 times as wide"));

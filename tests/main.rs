@@ -36,6 +36,8 @@ mod threads;
 #[cfg(feature = "shader")]
 mod causes;
 #[cfg(feature = "shader")]
+mod engines;
+#[cfg(feature = "shader")]
 mod interpreter;
 #[cfg(feature = "shader")]
 mod interpreter_operations;

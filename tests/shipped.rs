@@ -1,7 +1,9 @@
 //! Whole files in the manner of engines and of other people's projects, with all that stands around a threshold there: lights, textures,
 //! includes that are nowhere, conditions, several entry points. Written by somebody who had the list of obstacles and not the reader.
 //!
-//! `shipped/answers.tsv` has what has to be typed for each, most often nothing, and what is wrong with it.
+//! `shipped/answers.tsv` has what has to be typed for each, and what is wrong with it. The reader was made with the first 28, which run
+//! without a word or with a value for a uniform; of the other 25, by somebody else, 13 ran when they were tried for the first time, and
+//! what stopped the others was mended. `-` stands for a slip that no experiment tells: a natural logarithm in the weight alone.
 
 use hashed_alpha::check::{cause, shaders};
 use hashed_alpha::shader::interpreter::DeviceModel;
@@ -46,8 +48,8 @@ fn wrong(folder: &Path, row: &[&str]) -> Option<String> {
     subject.hash_scale = hash_scale.parse().expect("a size");
     let examination = cause::examine(&subject);
     let found: Vec<_> = examination.found.iter().map(|found| found.slip.name).collect();
-    let wanted: Vec<_> = (!slip.is_empty()).then_some(slip).into_iter().collect();
-    let is_sound = wanted.is_empty() == examination.follows;
+    let wanted: Vec<_> = (!matches!(slip, "" | "-")).then_some(slip).into_iter().collect();
+    let is_sound = slip.is_empty() == examination.follows;
     (found != wanted || !is_sound)
         .then(|| format!("{file}: {found:?}, not {wanted:?}, {}", examination.follows))
 }

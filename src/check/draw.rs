@@ -48,6 +48,25 @@ impl Budget {
             Self::Nightly => "nightly",
         }
     }
+
+    /// How many quarters of the samples of [`Budget::Ci`] it draws.
+    const fn quarters(self) -> usize {
+        match self {
+            Self::Quick => 1,
+            Self::Ci => 4,
+            Self::Nightly => 64,
+        }
+    }
+
+    /// Says which budget draws about as many samples as are `needed`, where this one drew `n`.
+    pub(super) fn advice(self, n: usize, needed: usize) -> String {
+        let drawn = |budget: Self| n.saturating_mul(budget.quarters()) / self.quarters();
+        let enough = Self::ALL.into_iter().find(|&budget| drawn(budget) >= needed);
+        enough.map_or_else(
+            || "no budget draws as many".to_owned(),
+            |budget| format!("--budget {} draws as many", budget.name()),
+        )
+    }
 }
 
 /// How far a threshold is asked to hold.
@@ -140,12 +159,8 @@ impl Draw {
     /// The number of samples that budget and round ask for.
     fn of_budget(&self, at_ci: usize) -> usize {
         let grown = at_ci.saturating_mul(ROUND_GROWTH.pow(self.round));
-        match self.budget {
-            Budget::Quick => grown / 4,
-            Budget::Ci => grown,
-            Budget::Nightly => grown.saturating_mul(16),
-        }
-        .clamp(1, SAMPLES_LIMIT.max(at_ci))
+        let quarters = grown.saturating_mul(self.budget.quarters());
+        (quarters / 4).clamp(1, SAMPLES_LIMIT.max(at_ci))
     }
 
     /// Doubles a number up to a limit; one that is above the limit already stays.

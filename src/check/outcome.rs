@@ -205,7 +205,9 @@ impl fmt::Display for Outcome {
             write!(f, ", {} = {statistic:.5}", self.statistic_name)?;
         }
         if let (Some(p), Some(p_holm)) = (self.p, self.p_holm) {
-            write!(f, ", p = {p:.3e}, {p_holm:.3e} among all claims")?;
+            // What is smaller is no longer a number.
+            let said = |p: f64| if p < 1.0e-300 { "below 1e-300".to_owned() } else { format!("{p:.3e}") };
+            write!(f, ", p = {}, {} among all claims", said(p), said(p_holm))?;
         }
         if let Some(effect) = self.effect {
             write!(f, "\n  {}: {effect:.4e}", self.effect_name)?;

@@ -145,7 +145,8 @@ fn outcome(
         let needed = promise.samples(trial.n, detectable);
         if needed > trial.n {
             verdict = Verdict::Inconclusive;
-            trial.seen = format!("{} samples are too few; this claim needs {needed}", trial.n);
+            let advice = draw.budget.advice(trial.n, needed);
+            trial.seen = format!("{} samples are too few; this claim needs {needed}: {advice}", trial.n);
         }
     }
     let p = probability(&trial);
@@ -216,7 +217,8 @@ mod tests {
             weak.promise = Some(promise);
             let found = outcomes(&[weak]).remove(0);
             assert_eq!(found.verdict, Verdict::Inconclusive);
-            let expected = format!("100 samples are too few; this claim needs {needed}");
+            let expected =
+                format!("100 samples are too few; this claim needs {needed}: --budget nightly draws as many");
             assert_eq!(found.seen, Some(expected));
         }
         // What is seen all the same counts.

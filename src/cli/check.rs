@@ -4,12 +4,13 @@ use super::args::{CheckArgs, Format};
 use super::failure::Failure;
 use super::subjects::{self, Asked, Place};
 use super::{Ending, drivers, growth, known, output, shader_files};
-use hashed_alpha::check::claims::{self, exact::CELLS};
+use hashed_alpha::check::cause::{self, Found};
+use hashed_alpha::check::claims;
 use hashed_alpha::check::diagnosis::diagnoses;
 use hashed_alpha::check::growth::Plan;
 use hashed_alpha::check::known::{Known, OF_THE_LISTINGS, mark};
 use hashed_alpha::check::outcome::worst;
-use hashed_alpha::check::{self, Claim, Draw, Outcome, Standing, Subject, Suite, Verdict};
+use hashed_alpha::check::{self, Claim, Draw, Outcome, Standing, Subject, Suite};
 use hashed_alpha::report::annotations::{self, Written};
 use hashed_alpha::report::by_model::by_model;
 use hashed_alpha::report::cause::causes;
@@ -55,16 +56,12 @@ pub fn run(args: &CheckArgs) -> Result<Ending, Failure> {
         }
         return growth::run(args, Plan::new(&claims, subjects, draw, args.doublings));
     }
+    subjects.iter().zip(&is_file).filter(|(_, is_file)| **is_file).for_each(|(subject, _)| foretell(subject));
     let mut outcomes = tried(&claims, &subjects, &draw);
     for (subject, remark) in subjects.iter().flat_map(|s| s.remarks().into_iter().map(move |r| (s, r))) {
         output::remark("note", format_args!("{}: {remark}", subject.name));
     }
-    for ((subject, is_file), outcomes) in subjects.iter().zip(is_file).zip(outcomes.chunks_mut(claims.len()))
-    {
-        if is_file && !subject.nested_phase {
-            outcomes.iter_mut().for_each(hint_at_phase);
-        }
-    }
+
     if args.suite == Suite::Paper {
         mark(&mut outcomes, OF_THE_LISTINGS);
     }
@@ -122,17 +119,6 @@ fn under_models(asked: &[Asked]) -> Vec<(String, Vec<(&'static str, String)>)> {
     found
 }
 
-/// Says with cells that are not where a file claims to have them that there is an option for another place.
-fn hint_at_phase(outcome: &mut Outcome) {
-    if outcome.check == CELLS.id && outcome.verdict == Verdict::Rejected {
-        let seen = outcome.seen.take().unwrap_or_default();
-        outcome.seen = Some(format!(
-            "{seen}; where cells begin between whole numbers, as in every export of `shader` without --literal, say \
-             --nested-phase"
-        ));
-    }
-}
-
 fn create(folder: &Path) -> Result<(), Failure> {
     let refused = |source| Failure::File { action: "create", place: folder.display().to_string(), source };
     std::fs::create_dir_all(folder).map_err(refused)
@@ -181,6 +167,16 @@ fn tried(claims: &[Claim], subjects: &[Subject<'_>], draw: &Draw) -> Vec<Outcome
     });
     bar.finish_and_clear();
     outcomes
+}
+
+/// Says on stderr what experiments show of a shader before its claims are tried, which takes longer.
+fn foretell(subject: &Subject<'_>) {
+    for Found { slip, shown, .. } in cause::examine(subject).found {
+        output::remark(
+            "cause so far",
+            format_args!("{}: {} ({shown}); {}", subject.name, slip.defect, slip.mend),
+        );
+    }
 }
 
 /// Says on stderr what the exit code rests on.

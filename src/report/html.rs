@@ -2,7 +2,7 @@
 
 use super::cause::sentences;
 use super::sampled;
-use super::text::{number, remark, summary};
+use super::text::{number, probability, remark, summary};
 use crate::check::diagnosis::Diagnosis;
 use crate::check::outcome::worst;
 use crate::check::{Outcome, Standing};
@@ -155,8 +155,8 @@ fn claim<'a>(index: usize, outcome: &'a Outcome, picture: Option<&'a str>) -> Sh
         n: outcome.n,
         statistic: number(outcome.statistic),
         statistic_name: &outcome.statistic_name,
-        p: number(outcome.p),
-        p_holm: number(outcome.p_holm),
+        p: probability(outcome.p),
+        p_holm: probability(outcome.p_holm),
         effect: number(outcome.effect),
         effect_name: outcome.effect_name,
         detectable: number(outcome.detectable),

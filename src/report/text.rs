@@ -100,6 +100,11 @@ pub(super) fn remark(outcome: &Outcome) -> Option<String> {
     }
 }
 
+/// Returns a probability as [`number`] does; what is too small to be one is told as such, and not as 0.
+pub(super) fn probability(value: Option<f64>) -> String {
+    if value.is_some_and(|p| p < 1.0e-300) { "< 1e-300".to_owned() } else { number(value) }
+}
+
 /// Returns a number in at most nine characters; a dash where there is none.
 pub(super) fn number(value: Option<f64>) -> String {
     let Some(value) = value else { return "-".to_owned() };
@@ -127,7 +132,7 @@ fn cells(outcome: &Outcome) -> [String; 8] {
         outcome.precision.name().to_owned(),
         outcome.n.to_string(),
         number(outcome.statistic),
-        number(outcome.p_holm),
+        probability(outcome.p_holm),
         if nothing_seen {
             "-".to_owned()
         } else {

@@ -61,9 +61,51 @@ fn a_test_of_an_alpha_is_the_threshold_that_it_compares_with() {
             ),
             "test",
         ),
+        (
+            format!("{HASH}in vec3 vPosition; void main() {{ vec4 c; if (c.a - hash(vPosition) < 0.0) discard; }}"),
+            "main",
+        ),
+        (
+            format!("{HASH}in vec3 vPosition; void main() {{ vec4 c; if (step(hash(vPosition), c.a) == 0.0) discard; }}"),
+            "main",
+        ),
+        (
+            format!(
+                "{HASH}in vec3 vPosition; void main() {{ vec4 c; if (all(lessThan(vec2(c.a), vec2(hash(vPosition))))) discard; }}"
+            ),
+            "main",
+        ),
+        (
+            format!(
+                "{HASH}void mask(float x, float y) {{ if (x < y) discard; }} in vec3 vPosition;
+                 void main() {{ vec4 c = texture(map, uv); mask(c.a, hash(vPosition)); color = lit(c); }}"
+            ),
+            "main",
+        ),
+        (
+            format!(
+                "struct Cover {{ vec3 position; float alpha; float threshold; bool gone; }};
+                 {HASH}void cover(inout Cover c) {{ c.threshold = hash(c.position); c.gone = c.alpha < c.threshold; }}"
+            ),
+            "cover",
+        ),
+        (
+            format!(
+                "struct Cover {{ float threshold; bool kept; }};
+                 {HASH}void cover(vec3 pos, float alpha, out Cover c) {{ c.threshold = hash(pos); c.kept = alpha >= c.threshold; }}"
+            ),
+            "cover",
+        ),
+        (
+            format!("{HASH}float test(vec3 p, float k) {{ return k * hash(p); }} float test(vec3 p) {{ return test(p, 1.0); }}"),
+            "test",
+        ),
     ] {
         let shader = glsl(&text, &named(function)).unwrap_or_else(|error| panic!("{error}: {text}"));
         assert_eq!(threshold(&shader, AT), WANTED, "{text}");
+        if text.contains("float test(vec3 p)") {
+            continue;
+        }
         assert!(
             shader.notes[0].starts_with("the threshold is what `") && !shader.notes[0].contains("halving"),
             "{text}"
@@ -175,6 +217,38 @@ fn the_size_of_a_pixel_may_be_handed_in() {
     assert_eq!(threshold(&shader, [0.0625, 0.0625, 0.0]), 0.75);
     let text = "float threshold(vec3 pos, vec2 uv) { return fract(pos.x * 8.0 * length(dFdx(uv))); }";
     assert_eq!(threshold(&glsl(text, &options(&[])).unwrap(), [0.375, 0.0, 0.0]), 0.375);
+}
+
+#[test]
+fn what_an_engine_declares_elsewhere_is_put_in() {
+    let text = format!("{HASH}float threshold() {{ return hash(vPosition * block.scale + offset); }}");
+    let shader = glsl(&text, &options(&[("block.scale", "2"), ("offset", "0,0,0")])).unwrap();
+    assert_eq!(threshold(&shader, AT.map(|x| x / 2.0)), WANTED);
+    assert_eq!(shader.taken[0].to_string(), "`vPosition` is taken for `position`");
+    let error = glsl(&text, &options(&[("offset", "0,0,0")])).unwrap_err();
+    assert!(error.contains("own.glsl:2:45: `block` has no value"), "{error}");
+    // As Babylon writes WGSL.
+    let text = format!(
+        "varying vPosition: vec3f;\nuniform hashScale: f32;\n#include<helperFunctions>\n{HASH_WGSL}
+fn kept(alpha: f32) -> bool {{ return alpha >= hash(fragmentInputs.vPosition * uniforms.hashScale); }}"
+    );
+    let shader = wgsl(&text, &named("kept")).unwrap();
+    assert_eq!(threshold(&shader, AT), WANTED);
+    assert_eq!(shader.hash_scale(), Some(1.0));
+    // A matrix is set column by column.
+    let text = "uniform mat3 turn;\nfloat threshold(vec3 pos) { return fract((turn * pos).x); }";
+    let shader = glsl(text, &options(&[("turn", "0,0,0,1,0,0,0,0,0")])).unwrap();
+    assert_eq!(threshold(&shader, [0.25, 0.375, 0.0]), 0.375);
+    let error = glsl(text, &options(&[("turn", "1,2")])).unwrap_err();
+    assert!(error.contains("`turn` is a matrix of f32 and takes 9 values"), "{error}");
+    let text = "struct Params { float scale; };\nuniform Params params;\nfloat threshold(vec3 pos) { return fract(pos.x * params.scale); }";
+    assert_eq!(threshold(&glsl(text, &options(&[("params.scale", "2")])).unwrap(), [0.25, 0.0, 0.0]), 0.5);
+    assert!(
+        glsl(text, &options(&[])).unwrap_err().contains("`scale` of uniform block `params` has no value")
+    );
+    let text =
+        "struct In { vec3 pos; float scale; };\nfloat threshold(In i) { return fract(i.pos.x * i.scale); }";
+    assert_eq!(threshold(&glsl(text, &options(&[("i.scale", "2")])).unwrap(), [0.25, 0.0, 0.0]), 0.5);
 }
 
 #[test]

@@ -78,8 +78,8 @@ fn what_is_refused_is_named_with_its_place() {
             "own.glsl:1:14: uniform `foo` has no value: --set foo=X,Y,Z",
         ),
         (
-            "uniform mat3 foo;\nfloat threshold() { return foo[0].x; }",
-            "own.glsl:1:14: uniform `foo`, of type mat3x3<f32>, has no value, and --set gives one to numbers and vectors only",
+            "uniform float foo[3];\nfloat threshold() { return foo[0]; }",
+            "own.glsl:1:15: uniform `foo`, of type an array of f32, has no value, and --set gives one to numbers and vectors only",
         ),
         (
             "uniform sampler2D t;\nfloat threshold(vec3 position) { return texture(t, position.xy).a; }",
@@ -98,8 +98,8 @@ fn what_is_refused_is_named_with_its_place() {
             "own.glsl:1:2: the file says: #error \"don't\"",
         ),
         (
-            "uniform Camera { mat4 view; vec3 eye; } camera;\nfloat threshold() { return camera.view[0].x; }",
-            "`view` of uniform block `camera`, of type mat4x4<f32>, has no value, and --set gives one to numbers",
+            "uniform Camera { mat4 view; float lens[4]; } camera;\nfloat threshold() { return camera.lens[0]; }",
+            "`lens` of uniform block `camera`, of type an array of f32, has no value, and --set gives one to numbers",
         ),
         ("float threshold(out float foo) { foo = 1.0; return 1.0; }", "a pointer (an `out` or `inout`)"),
         (

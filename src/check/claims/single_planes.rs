@@ -69,7 +69,7 @@ fn planes(
     let wall = Scene::wall();
     let mut tests: Vec<ChiSquare> = Vec::new();
     let mut evidence = Vec::new();
-    let mut worst_bias = 0.0_f64;
+    let mut biases: Vec<f64> = Vec::new();
     // A plane has only so many cells, so that the planes grow in number.
     let (planes, n) = (draw.groups(PLANES), draw.of_a_group().samples(PLANE_SAMPLES));
     let mut used = UsedCells::of(draw, 2 * n * planes);
@@ -84,10 +84,7 @@ fn planes(
         let counts = histogram(values);
         tests.extend(uniformity(&counts));
         let below_half: u64 = counts.counts()[..BINS / 2].iter().sum();
-        let bias = below_half as f64 / counts.total() as f64 - 0.5;
-        if bias.abs() > worst_bias.abs() {
-            worst_bias = bias;
-        }
+        biases.push(below_half as f64 / counts.total() as f64 - 0.5);
         let distance = samples.first().map_or(f64::NAN, |sample| sample.footprint.position.dot(turn.z_axis));
         if evidence.len() < PLANES {
             evidence.push(NamedHistogram::new(format!("{label}{distance:.3}"), &counts));
@@ -98,13 +95,26 @@ fn planes(
     else {
         return Ok(Trial::without(Conclusion::Inconclusive, "the wall gave no samples"));
     };
-    let seen = format!(
-        "each plane has a bias of its own: the share of thresholds up to 1/2 is off by up to {:+.2} %",
-        100.0 * worst_bias
-    );
-    Ok(Trial::worst_of(&[sum], sum.n, seen, Evidence::Histograms(evidence)))
+    Ok(Trial::worst_of(&[sum], sum.n, in_words(&biases), Evidence::Histograms(evidence)))
 }
 
+/// Says whether the planes are biased alike.
+fn in_words(biases: &[f64]) -> String {
+    let n = biases.len() as f64;
+    let mean = biases.iter().sum::<f64>() / n;
+    let variance = biases.iter().map(|bias| (bias - mean) * (bias - mean)).sum::<f64>() / n;
+    if mean * mean > variance {
+        return format!(
+            "all planes have one bias: the share of thresholds up to 1/2 is off by {:+.2} % in the mean",
+            100.0 * mean
+        );
+    }
+    let worst = biases.iter().copied().max_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap_or(0.0);
+    format!(
+        "each plane has a bias of its own: the share of thresholds up to 1/2 is off by up to {:+.2} %",
+        100.0 * worst
+    )
+}
 /// Turns a scene about the origin, camera and all.
 fn turned(scene: &Scene, turn: DMat3) -> Scene {
     let Camera { eye, forward, direction_dx, direction_dy, resolution } = scene.camera;

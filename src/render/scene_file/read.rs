@@ -6,6 +6,7 @@ use super::schema::{SceneFile, Takes};
 use super::spans::{Span, Spans};
 use crate::render::effect::plan::{check as check_effects, plan};
 use crate::render::measure::expect;
+use crate::shader::spelling::likely;
 
 /// A scene file that cannot be used.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]

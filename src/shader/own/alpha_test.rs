@@ -187,7 +187,7 @@ impl<'t> Head<'t> {
     /// The parameter that holds the alpha, as a number or in a colour.
     fn alpha(&self, asked: &Options) -> Option<&'t str> {
         let is_it = |parameter: &&Parameter<'t>| match asked.map.get("alpha") {
-            Some(name) => name == parameter.name,
+            Some(name) => name.split('.').next() == Some(parameter.name),
             None => is_alpha(parameter.name) && !asked.settings.contains_key(parameter.name),
         };
         self.parameters.iter().find(is_it).map(|parameter| parameter.name)
@@ -283,9 +283,12 @@ impl<'s> Search<'_, 's, '_> {
                 if is_test { self.each(inside, here) } else { Ok(()) }
             }
             word => {
+                if body.word(at.start + 1) == "(" {
+                    return self.handed(at.start, here);
+                }
                 let is_output =
                     word == "ALPHA" || self.head.parameters.iter().any(|p| p.is_written && p.name == word);
-                if !is_output || self.head.alpha(self.asked).is_none() && word != "ALPHA" {
+                if !is_output {
                     return Ok(());
                 }
                 let equals = at.clone().find(|&at| body.word(at) == "=");
@@ -297,6 +300,40 @@ impl<'s> Search<'_, 's, '_> {
                 Ok(())
             }
         }
+    }
+
+    /// Looks at a call of another function of the file that compares two of its parameters and discards.
+    fn handed(&mut self, name: usize, path: usize) -> Result<(), Fault> {
+        let (file, called) = (self.file, self.body.word(name));
+        let is_called = |item: &&Item<'_>| item.function.is_some_and(|at| file.word(at) == called);
+        let Some(head) = file.items.iter().find(is_called).and_then(|item| Head::of(file, item)) else {
+            return Ok(());
+        };
+        let is_wgsl = file.dialect == Dialect::Wgsl;
+        let theirs = Body::of(file.text, file.tokens, file.in_directive, head.name, is_wgsl);
+        let mut arguments = Vec::new();
+        let (mut start, close) = (name + 2, self.body.closing(name + 1));
+        for at in name + 2..=close {
+            let is_end = at == close || self.body.word(at) == "," && depth(self.body, name + 2, at) == 0;
+            if is_end {
+                arguments.push(start..at);
+                start = at + 1;
+            }
+        }
+        let mut guards = Vec::new();
+        discarding(&theirs, &theirs.statements(), &mut guards);
+        for (condition, fails) in guards {
+            for Comparison { left, right, holds_below } in comparisons(&theirs, condition) {
+                let handed = |side: &Range<usize>| {
+                    let index = head.parameters.iter().position(|p| theirs.written(side) == p.name)?;
+                    arguments.get(index).cloned()
+                };
+                if let (Some(left), Some(right)) = (handed(&left), handed(&right)) {
+                    self.take(Comparison { left, right, holds_below }, Some(fails), path)?;
+                }
+            }
+        }
+        Ok(())
     }
 
     /// Looks at the conditions that a statement stands behind, the innermost first.
@@ -337,7 +374,9 @@ impl<'s> Search<'_, 's, '_> {
         };
         let (alpha, threshold) = if threshold_is_right { (left, right) } else { (right, left) };
         // An alpha that is changed on the way has another threshold than what it is compared with.
-        if self.head.alpha(self.asked).is_some_and(|parameter| !self.is_as_given(&path, &alpha, parameter)) {
+        let is_said = self.asked.map.get("alpha").is_some_and(|name| name == self.body.written(&alpha));
+        let parameter = self.head.alpha(self.asked).filter(|_| !is_said);
+        if parameter.is_some_and(|parameter| !self.is_as_given(&path, &alpha, parameter)) {
             return Ok(());
         }
         if let Some(fails) = fails
@@ -428,6 +467,22 @@ impl Side {
     }
 }
 
+/// The conditions behind which statements discard, each with whether that is where it fails.
+fn discarding(body: &Body<'_>, list: &[Statement], found: &mut Vec<(Range<usize>, bool)>) {
+    for statement in list {
+        match &statement.kind {
+            Kind::Block(inner) => discarding(body, inner, found),
+            Kind::If { condition, accept, reject } => {
+                let discards = |branch: &Statement| branch.at.clone().any(|at| body.word(at) == "discard");
+                found.extend(discards(accept).then(|| (condition.clone(), false)));
+                let otherwise = reject.as_ref().filter(|reject| discards(reject));
+                found.extend(otherwise.map(|_| (condition.clone(), true)));
+            }
+            Kind::Simple | Kind::Whole => {}
+        }
+    }
+}
+
 /// The names that a value comes from, and the statements that make it.
 fn slice<'t>(
     body: &Body<'t>,
@@ -501,11 +556,45 @@ fn compare(
             sign == ">" && next == "(" && matches!(before, "f32" | "u32" | "i32" | "f16" | "bool");
         at > start && matches!(sign, "<" | ">") && !is_type && !is_shift && !ends_type
     };
+    let is_zero = |range: &Range<usize>| {
+        range.len() == 1 && matches!(body.word(range.start), "0" | "0.0" | "0." | "0.0f" | "0.f" | ".0")
+    };
+    let is_number = |range: &Range<usize>| {
+        range.len() == 1 && body.word(range.start).starts_with(|c: char| c.is_ascii_digit() || c == '.')
+    };
+    let has_step = |range: Range<usize>| range.clone().any(|at| body.word(at) == "step");
     if let Some(sign) = top(&is_comparison) {
         let behind = if body.word(sign + 1) == "=" { sign + 2 } else { sign + 1 };
-        let holds_below = (body.word(sign) == "<") != is_negated;
-        found.push(Comparison { left: start..sign, right: behind.min(end)..end, holds_below });
+        let is_less = body.word(sign) == "<";
+        let (left, right) = (start..sign, behind.min(end)..end);
+        // `step(t, a) < 0.5` is 0 there.
+        if is_number(&right) && has_step(left.clone()) {
+            return inner(left, is_negated != is_less, found);
+        }
+        let holds_below = is_less != is_negated;
+        let difference = |range: &Range<usize>| {
+            let minus = (range.start + 1..range.end)
+                .find(|&at| body.word(at) == "-" && depth(body, range.start, at) == 0)?;
+            Some((range.start..minus, minus + 1..range.end))
+        };
+        found.push(match (difference(&left), difference(&right)) {
+            // `a - b < 0.0`, and `0.0 < a - b`.
+            (Some((left, minus)), _) if is_zero(&right) => Comparison { left, right: minus, holds_below },
+            (_, Some((right, minus))) if is_zero(&left) => {
+                Comparison { left: right, right: minus, holds_below: !holds_below }
+            }
+            _ => Comparison { left, right, holds_below },
+        });
         return;
+    }
+    // `step(t, a) == 0.0`.
+    let is_equality = |at: usize| {
+        at > start && matches!(body.word(at), "=" | "!") && body.word(at + 1) == "=" && has_step(start..at)
+    };
+    if let Some(sign) = top(&is_equality) {
+        let right = (sign + 2).min(end)..end;
+        let is_of_zero = is_zero(&right);
+        return inner(start..sign, is_negated != ((body.word(sign) == "=") == is_of_zero), found);
     }
     let step = (start..end).find(|&at| body.word(at) == "step" && body.word(at + 1) == "(");
     if let Some(step) = step {
@@ -521,11 +610,31 @@ fn compare(
         return;
     }
     if is_name(body.word(start)) && open(start + 1) {
+        let comma = (start + 2..end).find(|&at| body.word(at) == "," && depth(body, start + 2, at) == 0);
+        let is_less = match body.word(start) {
+            "lessThan" | "lessThanEqual" => Some(true),
+            "greaterThan" | "greaterThanEqual" => Some(false),
+            _ => None,
+        };
+        if let (Some(is_less), Some(comma)) = (is_less, comma) {
+            let (left, right) = (alone(body, start + 2..comma), alone(body, comma + 1..end - 1));
+            found.push(Comparison { left, right, holds_below: is_less != is_negated });
+            return;
+        }
         // A conversion, or one of several values.
         let last =
             (start + 2..end - 1).rev().find(|&at| body.word(at) == "," && depth(body, start + 2, at) == 0);
         inner(last.map_or(start + 2, |comma| comma + 1)..end - 1, is_negated, found);
     }
+}
+
+/// What a constructor of a vector repeats, as in `vec2(x)`; any other value as it is.
+fn alone(body: &Body<'_>, range: Range<usize>) -> Range<usize> {
+    let is_whole = body.word(range.start + 1) == "(" && body.closing(range.start + 1) + 1 == range.end;
+    let inner = range.start + 2..range.end.saturating_sub(1);
+    let has_comma = inner.clone().any(|at| body.word(at) == "," && depth(body, inner.start, at) == 0);
+    let is_vector = ["vec", "float", "half"].iter().any(|ty| body.word(range.start).starts_with(ty));
+    if is_whole && is_vector && !has_comma && !inner.is_empty() { inner } else { range }
 }
 
 /// The name of what was `main`, which is another thing in GLSL.
@@ -596,11 +705,29 @@ impl Test<'_> {
                 blank.extend(tokens.map(byte));
                 continue;
             }
+            let was_first = is_first;
             if !is_first {
                 let start = byte(tokens.start).start;
                 edits.push((start..start, words(", ")));
             }
             is_first = false;
+            let is_out = tokens.clone().any(|at| file.word(at) == "out");
+            if is_out && file.dialect != Dialect::Wgsl {
+                // What only goes out is a variable of the function.
+                let (first, last) = (file.tokens[tokens.start].at.start, file.tokens[tokens.end - 1].at.end);
+                let declared =
+                    file.text[first..last].split(':').next().unwrap_or_default().replacen("out ", "", 1);
+                let brace = byte(head.brace).end;
+                edits.push((brace..brace, words(&format!(" {declared};"))));
+                blank.extend(tokens.map(byte));
+                if let Some((_, Put::Words(comma))) =
+                    edits.iter_mut().rev().find(|(range, _)| range.start == first)
+                {
+                    comma.clear();
+                }
+                is_first = was_first;
+                continue;
+            }
             let name = tokens.clone().find(|&at| file.word(at) == parameter.name).unwrap_or(tokens.start);
             let marks = tokens.clone().filter(|&at| matches!(file.word(at), "inout" | "out"));
             blank.extend(marks.map(byte));

@@ -8,7 +8,7 @@
 use super::body::Body;
 use super::error::Fault;
 use super::invalid::called_by;
-use super::mapping::{is_alpha, reached_from};
+use super::mapping::{is_alpha, meaning_of, reached_from};
 use super::options::Options;
 use super::unit::ALPHA;
 use naga::{
@@ -52,13 +52,29 @@ pub(super) fn wrap(
     settings: &BTreeMap<String, String>,
 ) -> Result<(Handle<Function>, Option<String>), Fault> {
     let function = &module.functions[target];
-    let said = asked.map.get(ALPHA);
+    // `color.a` is in the parameter `color`.
+    let said = asked.map.get(ALPHA).and_then(|name| name.split('.').next());
     let is_it = |argument: &FunctionArgument| {
         let name = argument.name.as_deref().unwrap_or_default();
         said.map_or_else(|| is_alpha(name) && !settings.contains_key(name), |said| said == name)
     };
-    let found = function.arguments.iter().position(is_it);
+    let mut found = function.arguments.iter().position(is_it);
     let result = function.result.as_ref().map(|result| &module.types[result.ty].inner);
+    // Where none sounds like it, the only number of a function that has a test for its only purpose.
+    let is_bool = matches!(result, Some(TypeInner::Scalar(Scalar::BOOL)));
+    if found.is_none() && said.is_none() && (is_bool || result.is_none()) {
+        let may_be = |argument: &FunctionArgument| {
+            let name = argument.name.as_deref().unwrap_or_default();
+            let ty = match module.types[argument.ty].inner {
+                TypeInner::Pointer { base, space: AddressSpace::Function } => base,
+                _ => argument.ty,
+            };
+            let is_number = matches!(module.types[ty].inner, TypeInner::Scalar(Scalar::F32));
+            is_number && !settings.contains_key(name) && meaning_of(name).is_none()
+        };
+        let mut numbers = function.arguments.iter().enumerate().filter(|(_, argument)| may_be(argument));
+        found = numbers.next().map(|(index, _)| index).filter(|_| numbers.next().is_none());
+    }
     let discards =
         reached_from(module, target).iter().any(|&function| has_kill(&module.functions[function].body));
     let answer = match (found.map(|index| is_written(module, function.arguments[index].ty)), result) {

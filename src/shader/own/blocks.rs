@@ -20,13 +20,14 @@ use std::collections::{BTreeMap, BTreeSet};
 pub(super) fn fill(
     module: &mut Module,
     settings: &mut BTreeMap<String, String>,
+    uniforms: &[String],
     taken: &BTreeMap<Handle<GlobalVariable>, BTreeSet<usize>>,
 ) -> Result<BTreeMap<String, Vec<bool>>, Fault> {
     let mut blocks = BTreeMap::new();
     let handles: Vec<_> = module.global_variables.iter().map(|(handle, _)| handle).collect();
     for handle in handles {
         let variable = &module.global_variables[handle];
-        let Some((name, members)) = block(module, variable) else { continue };
+        let Some((name, members)) = block(module, variable, uniforms) else { continue };
         let (ty, members) = (variable.ty, members.to_vec());
         let at = module.global_variables.get_span(handle).to_range();
         let (mut components, mut is_set) = (Vec::new(), Vec::new());
@@ -41,7 +42,7 @@ pub(super) fn fill(
                     let inner = &module.types[member.ty].inner;
                     let value = Constant::parse(&key, inner, &written);
                     let value = value.map_err(|error| Fault::new(error).at(at.clone()))?;
-                    value.append(member.ty, &mut module.global_expressions)
+                    value.append(member.ty, module)
                 }
             };
             components.push(init);
@@ -120,9 +121,14 @@ fn is_handed_on(function: &Function, structure: Handle<Expression>) -> bool {
         || find(&function.body, &takes_it).is_some()
 }
 
-/// The name of a uniform block or of push constants, that of its type where the variable has none, and its members.
-fn block<'m>(module: &'m Module, variable: &GlobalVariable) -> Option<(String, &'m [StructMember])> {
-    let is_uniform = matches!(variable.space, AddressSpace::Uniform | AddressSpace::Immediate);
+/// The name of a uniform block, of push constants or of a uniform structure, that of its type where the variable has none, and its members.
+fn block<'m>(
+    module: &'m Module,
+    variable: &GlobalVariable,
+    uniforms: &[String],
+) -> Option<(String, &'m [StructMember])> {
+    let is_named = variable.name.as_ref().is_some_and(|name| uniforms.contains(name));
+    let is_uniform = is_named || matches!(variable.space, AddressSpace::Uniform | AddressSpace::Immediate);
     structure(module, variable).filter(|_| is_uniform)
 }
 

@@ -54,7 +54,11 @@ fn parameters<'t>(text: &'t str, tokens: &[Token], function: &str) -> Option<Vec
     const QUALIFIERS: [&str; 9] =
         ["in", "out", "inout", "const", "uniform", "precise", "nointerpolation", "linear", "centroid"];
     let word = |at: usize| tokens.get(at).map_or("", |token| &text[token.at.clone()]);
-    let name = tokens.iter().find_map(|token| token.function.filter(|&name| word(name) == function))?;
+    // Of several the one that hands on to the others.
+    let defined = |&(_, token): &(usize, &Token)| token.function.is_some_and(|name| word(name) == function);
+    let within = || tokens.iter().enumerate().filter(defined);
+    let hands_on = within().find(|&(at, _)| word(at) == function).or_else(|| within().next());
+    let name = hands_on.and_then(|(_, token)| token.function)?;
     let end = (name..tokens.len()).find(|&at| word(at) == ")" && tokens[at].parentheses == 0)?;
     let inside: Vec<usize> = (name + 2..end).collect();
     let parts = inside.split(|&at| word(at) == "," && tokens[at].parentheses == 1);

@@ -112,6 +112,11 @@ pub(super) fn blank_others(
     let word = |index: usize| &text[tokens[index].at.clone()];
     let in_directive = in_directives(directives, tokens.len());
     let items = items(text, tokens, directives);
+    // Babylon's WGSL declares what is no WGSL.
+    let text_is_wgsl = items.iter().any(|item| {
+        word(item.tokens.start) == "fn"
+            || item.function.is_some_and(|name| name > 0 && word(name - 1) == "fn")
+    });
     let is_there = items.iter().any(|item| item.function.is_some_and(|name| word(name) == function));
     let reached = is_there.then(|| {
         let first = kept.iter().copied().chain([function]).collect();
@@ -120,9 +125,12 @@ pub(super) fn blank_others(
     for item in &items {
         let stays = match &reached {
             Some(reached) => {
-                item.names.is_empty()
-                    || OF_THE_WHOLE.contains(&word(item.tokens.start))
-                    || item.names.iter().any(|name| reached.contains(name))
+                let is_of_engine =
+                    text_is_wgsl && matches!(word(item.tokens.start), "uniform" | "varying" | "attribute");
+                !is_of_engine
+                    && (item.names.is_empty()
+                        || OF_THE_WHOLE.contains(&word(item.tokens.start))
+                        || item.names.iter().any(|name| reached.contains(name)))
             }
             None => item.function.is_none_or(|name| word(name) != "main"),
         };

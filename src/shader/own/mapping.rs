@@ -197,6 +197,11 @@ fn is_usual(of: &str, name: &str) -> bool {
     USUAL.iter().any(|(known, names)| *known == of && names.contains(&name.as_str()))
 }
 
+/// The value of a fragment that a name is known for.
+pub(super) fn meaning_of(name: &str) -> Option<&'static str> {
+    meanings().find(|&meaning| meaning == name || is_usual(meaning, name))
+}
+
 /// Whether a name says that it is a position, and none of a light, of the eye or on the screen.
 fn sounds_like_position(name: &str) -> bool {
     const OTHERS: [&str; 12] = [
@@ -255,6 +260,8 @@ impl Place {
 
 struct Item {
     name: String,
+    /// The setting that gives it a value.
+    setting: Option<String>,
     /// With the name of the structure that it is a member of.
     full: String,
     ty: Handle<Type>,
@@ -279,6 +286,7 @@ pub(super) fn map(
     asked: &Options,
     settings: &BTreeMap<String, String>,
     inputs: &BTreeSet<String>,
+    uniforms: &[String],
     pixels: &BTreeSet<String>,
 ) -> Result<Mapped, Fault> {
     let said = &asked.map;
@@ -294,7 +302,7 @@ pub(super) fn map(
                 "--map {meaning}={name}: a fragment has no `{meaning}`.{likely} It has {known}"
             )));
         };
-        let Some(item) = items.iter().find(|item| item.is_called(name)) else {
+        let Some(item) = items.iter().find(|item| item.is_called(name) && item.setting.is_none()) else {
             let known: Vec<_> = items.iter().map(|item| item.name.as_str()).collect();
             let likely = likely(name, &known);
             let known = if known.is_empty() { "nothing".to_owned() } else { known.join(", ") };
@@ -322,12 +330,15 @@ pub(super) fn map(
         }
         let is_free = |item: &&Item| {
             let is_another = meanings().any(|known| known == item.name) && item.name != meaning;
-            (!is_another || pixels.contains(&item.name)) && !said.values().any(|name| item.is_called(name))
+            item.setting.is_none()
+                && (!is_another || pixels.contains(&item.name))
+                && !said.values().any(|name| item.is_called(name))
         };
         let is_meant = |item: &Item| {
             // In blocks are the positions of lights and of the eye.
             let is_of_block = matches!(item.place, Place::VariableMember(variable, _)
-                if module.global_variables[variable].space != AddressSpace::Private);
+                if module.global_variables[variable].space != AddressSpace::Private
+                    || module.global_variables[variable].name.as_ref().is_some_and(|name| uniforms.contains(name)));
             if pixels.contains(&item.name) {
                 meaning == "pixel"
             } else {
@@ -347,8 +358,9 @@ pub(super) fn map(
         || items.iter().any(|item| item.name == "position" && item.place.is_parameter());
     if !has_position {
         let is_vector = |item: &&Item| {
-            let is_free =
-                !pixels.contains(&item.name) && !taken.iter().any(|(taken, _)| taken.place == item.place);
+            let is_free = item.setting.is_none()
+                && !pixels.contains(&item.name)
+                && !taken.iter().any(|(taken, _)| taken.place == item.place);
             let is_of_fragment = match item.place {
                 Place::Parameter(_) | Place::Member(..) => true,
                 Place::Variable(_) => inputs.contains(&item.name),
@@ -373,7 +385,7 @@ pub(super) fn map(
     let has_structures =
         module.functions[target].arguments.iter().any(|argument| members(module, argument.ty).is_some());
     let taken: Vec<_> = taken.into_iter().map(|(item, meaning)| (item.place, item.ty, meaning)).collect();
-    refuse_unset(module, &items, &taken)?;
+    refuse_unset(module, &items, &taken, uniforms)?;
     let mut members = BTreeMap::<_, BTreeSet<_>>::new();
     for &(place, ..) in &taken {
         if let Place::VariableMember(variable, member) = place {
@@ -395,9 +407,18 @@ pub(super) struct Mapped {
 }
 
 /// Refuses members of inputs that are read and stand for nothing, beside others that do.
-fn refuse_unset(module: &Module, items: &[Item], taken: &[(Place, Handle<Type>, &str)]) -> Result<(), Fault> {
+fn refuse_unset(
+    module: &Module,
+    items: &[Item],
+    taken: &[(Place, Handle<Type>, &str)],
+    uniforms: &[String],
+) -> Result<(), Fault> {
     for item in items {
         let Place::VariableMember(variable, _) = item.place else { continue };
+        // What is not set of a uniform is refused with its block.
+        if module.global_variables[variable].name.as_ref().is_some_and(|name| uniforms.contains(name)) {
+            continue;
+        }
         let is_taken = |place: Place| taken.iter().any(|(taken, ..)| *taken == place);
         if module.global_variables[variable].space == AddressSpace::Private && !is_taken(item.place) {
             let Item { full, name, .. } = item;
@@ -427,7 +448,13 @@ fn items(module: &Module, target: Handle<Function>, settings: &BTreeMap<String, 
     for (index, argument) in function.arguments.iter().enumerate() {
         let name = argument.name.clone().unwrap_or_default();
         let Some(members) = members(module, argument.ty) else {
-            found.push(Item { full: name.clone(), name, ty: argument.ty, place: Place::Parameter(index) });
+            found.push(Item {
+                full: name.clone(),
+                name,
+                setting: None,
+                ty: argument.ty,
+                place: Place::Parameter(index),
+            });
             continue;
         };
         let reads = reads(module, target, Expression::FunctionArgument(index as u32), 0);
@@ -451,9 +478,13 @@ fn items(module: &Module, target: Handle<Function>, settings: &BTreeMap<String, 
             .or_else(|| module.types[variable.ty].name.clone());
         let name = name.unwrap_or_default();
         match members(module, variable.ty) {
-            None => {
-                found.push(Item { full: name.clone(), name, ty: variable.ty, place: Place::Variable(handle) })
-            }
+            None => found.push(Item {
+                full: name.clone(),
+                name,
+                setting: None,
+                ty: variable.ty,
+                place: Place::Variable(handle),
+            }),
             Some(members) => {
                 let all = functions.iter().map(|&f| reads(module, f, Expression::GlobalVariable(handle), 0));
                 let reads: Option<BTreeSet<usize>> =
@@ -464,7 +495,12 @@ fn items(module: &Module, target: Handle<Function>, settings: &BTreeMap<String, 
             }
         }
     }
-    found.retain(|item| !item.name.is_empty() && !settings.keys().any(|name| item.is_called(name)));
+    found.retain(|item| !item.name.is_empty());
+    for item in &mut found {
+        item.setting = settings.keys().find(|name| item.is_called(name)).cloned();
+    }
+    // Only members of parameters are still needed where they are set.
+    found.retain(|item| item.setting.is_none() || matches!(item.place, Place::Member(..)));
     found
 }
 
@@ -479,7 +515,7 @@ fn of_members(
         members.iter().enumerate().filter(|(index, _)| reads.is_none_or(|reads| reads.contains(index)));
     read.map(|(index, member)| {
         let name = member.name.clone().unwrap_or_default();
-        Item { full: format!("{of}.{name}"), name, ty: member.ty, place: place(index) }
+        Item { full: format!("{of}.{name}"), name, setting: None, ty: member.ty, place: place(index) }
     })
     .collect()
 }
@@ -528,6 +564,19 @@ fn reads(
         }
     }
     let mut found = BTreeSet::new();
+    let stored: BTreeSet<_> = statements
+        .iter()
+        .filter_map(|statement| match **statement {
+            Statement::Store { pointer, .. } => Some(pointer),
+            _ => None,
+        })
+        .collect();
+    let is_stored = |of: Handle<Expression>, member: u32| {
+        body.expressions.iter().any(|(at, expression)| {
+            stored.contains(&at)
+                && matches!(*expression, Expression::AccessIndex { base, index } if base == of && index == member)
+        })
+    };
     // The front end of GLSL leads to every member of a block, and reads some.
     let is_pointer = |at: Handle<Expression>| match body.expressions[at] {
         Expression::GlobalVariable(_) | Expression::LocalVariable(_) => true,
@@ -556,7 +605,9 @@ fn reads(
     for (at, expression) in body.expressions.iter() {
         match expression {
             Expression::AccessIndex { base, index } if same.contains(base) => {
-                if !is_pointer(*base) || is_used(at) {
+                // What the function itself gives a value to waits for none.
+                let is_given = same.iter().any(|&of| is_stored(of, *index));
+                if !is_given && (!is_pointer(*base) || is_used(at)) {
                     found.insert(*index as usize);
                 }
             }
@@ -710,9 +761,11 @@ fn wrap(
             let place = Place::Member(index, member);
             match meaning(place) {
                 Some((ty, meaning)) => wrapper.value(module, meaning, ty),
-                None if items.iter().any(|item| item.place == place) => wrapper.parameter(name, ty),
-                // What is not read.
-                None => wrapper.body.append(Expression::ZeroValue(ty)),
+                None => match items.iter().find(|item| item.place == place) {
+                    Some(item) => wrapper.parameter(item.setting.clone().or(name), ty),
+                    // What is not read.
+                    None => wrapper.body.append(Expression::ZeroValue(ty)),
+                },
             }
         });
         let components = parts.collect();

@@ -22,6 +22,7 @@ mod isolated;
 mod items;
 mod language;
 mod mapping;
+mod missing;
 mod nesting;
 mod options;
 mod pointers;

@@ -100,10 +100,28 @@ pub(super) fn defined<'t>(text: &'t str, function: &str) -> Option<&'t str> {
         let is_call = behind.trim_start().starts_with('(');
         let type_start = apart.rfind(|c| !is_word(c)).map_or(0, |at| at + 1);
         let word = &apart[type_start..];
-        let is_definition =
-            apart.len() < before.len() && !word.is_empty() && word != "return" && word != "else";
+        let is_definition = apart.len() < before.len()
+            && !word.is_empty()
+            && word != "return"
+            && word != "else"
+            && has_body(behind.trim_start());
         (is_call && is_definition).then_some(word)
     })
+}
+
+/// Whether a body, or what the function returns, follows the brackets that a text begins with.
+fn has_body(text: &str) -> bool {
+    let mut open = 0_usize;
+    let close = text.bytes().position(|byte| {
+        match byte {
+            b'(' => open += 1,
+            b')' => open = open.saturating_sub(1),
+            _ => {}
+        }
+        open == 0
+    });
+    let behind = close.map_or("", |close| text[close + 1..].trim_start());
+    ["{", "->", ":", "//", "/*"].iter().any(|sign| behind.starts_with(sign))
 }
 
 /// The names of the functions that a text defines.
@@ -218,7 +236,8 @@ mod tests {
         )
         .unwrap_err();
         assert!(error.message.ends_with("functions between quotes are g, h"), "{}", error.message);
-        assert_eq!(defined("return f(1.0); fn f(p: vec3f)", "f"), Some("fn"));
+        assert_eq!(defined("return f(1.0); fn f(p: vec3f) -> f32 {", "f"), Some("fn"));
+        assert_eq!(defined("calls f(1.0), or float f(vec3 p);", "f"), None);
         assert_eq!(defined("return f(1.0) + of(2.0)", "f"), None);
     }
 

@@ -54,14 +54,14 @@ pub(super) fn reduce(front: Front, options: &Options, pixels: &BTreeSet<String>)
         target = pointers::wrap(&mut module, target);
     }
     let Mapped { target, notes: taken, members } =
-        mapping::map(&mut module, target, options, &settings, &filled, pixels)?;
+        mapping::map(&mut module, target, options, &settings, &filled, &uniforms, pixels)?;
     uniforms.retain(|name| taken.iter().all(|taken| taken.name != *name));
     filled.retain(|name| taken.iter().all(|taken| taken.name != *name));
     let target = quads::wrap(&mut module, target);
     let its_name = if target == own { NAME.to_owned() } else { prefixed(Some(options.function.clone())) };
     let bindings = signature::bind(&module, target, &options.function, &mut settings)?;
     fill_uniforms(&mut module, &uniforms, &mut settings)?;
-    let blocks = blocks::fill(&mut module, &mut settings, &members)?;
+    let blocks = blocks::fill(&mut module, &mut settings, &uniforms, &members)?;
     let constants = overrides(&module, &mut settings)?;
     if let Some(name) = settings.keys().next() {
         let waiting = waiting(&module, target);
@@ -106,7 +106,7 @@ pub(super) fn reduce(front: Front, options: &Options, pixels: &BTreeSet<String>)
 fn waiting(module: &Module, target: Handle<Function>) -> Vec<String> {
     let parameters = module.functions[target].arguments.iter().filter_map(|argument| argument.name.clone());
     let uniforms = module.global_variables.iter().filter(|(_, variable)| {
-        variable.name.as_ref().is_some_and(|name| !name.starts_with('_') && variable.init.is_some())
+        matches!(variable.space, naga::AddressSpace::Uniform | naga::AddressSpace::Immediate)
     });
     let uniforms = uniforms.flat_map(|(_, variable)| {
         let name = variable.name.clone().unwrap_or_default();
@@ -136,11 +136,13 @@ fn find(
     name: &str,
     functions: &BTreeMap<String, Option<String>>,
 ) -> Result<Handle<Function>, Fault> {
-    let mut named = module
-        .functions
-        .iter()
-        .filter(|(_, function)| function.name.as_deref() == Some(name))
-        .map(|(handle, _)| handle);
+    let all = module.functions.iter().filter(|(_, function)| function.name.as_deref() == Some(name));
+    let all: Vec<_> = all.map(|(handle, _)| handle).collect();
+    // Of several the one that hands on to the others.
+    let is_called = |handle: &Handle<Function>| {
+        all.iter().any(|other| invalid::called_by(&module.functions[*other].body).contains(handle))
+    };
+    let mut named = all.iter().copied().filter(|handle| !is_called(handle));
     match (named.next(), named.next()) {
         (Some(function), None) => Ok(function),
         (Some(_), Some(second)) => Err(Fault::new(format!("there are several functions `{name}`"))

@@ -1,36 +1,49 @@
 //! Values that a user gives by name: `--set KEY=VALUE`.
 
-use naga::{Arena, Expression, Handle, Literal, Scalar, ScalarKind, Span, Type, TypeInner};
+use naga::{Expression, Handle, Literal, Module, Scalar, ScalarKind, Span, Type, TypeInner, VectorSize};
 
-/// A number or a vector that is the same in every fragment.
+/// A number, a vector or a matrix that is the same in every fragment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Constant {
-    /// The components, repeated behind the last.
-    values: [Value; 4],
+    /// The components, repeated behind the last; of a matrix column by column.
+    values: [Value; 16],
     size: usize,
+    /// The rows of a matrix.
+    rows: Option<VectorSize>,
 }
 
 impl From<Value> for Constant {
     fn from(value: Value) -> Self {
-        Self { values: [value; 4], size: 1 }
+        Self { values: [value; 16], size: 1, rows: None }
     }
 }
 
 impl Constant {
-    /// Returns the components: one of a number, two to four of a vector.
+    /// Returns the components: one of a number, two to four of a vector, up to 16 of a matrix, column by column.
     #[must_use]
     pub fn components(&self) -> &[Value] {
         &self.values[..self.size]
     }
 
-    /// Appends it to constant expressions, of which it is one of type `ty`.
-    pub(super) fn append(&self, ty: Handle<Type>, expressions: &mut Arena<Expression>) -> Handle<Expression> {
-        let mut append = |expression| expressions.append(expression, Span::UNDEFINED);
+    /// Appends it to the constant expressions of a module, of which it is one of type `ty`.
+    pub(super) fn append(&self, ty: Handle<Type>, module: &mut Module) -> Handle<Expression> {
+        let column = self.rows.map(|size| {
+            let inner = TypeInner::Vector { size, scalar: Scalar::F32 };
+            (size as usize, module.types.insert(Type { name: None, inner }, Span::UNDEFINED))
+        });
+        let mut append = |expression| module.global_expressions.append(expression, Span::UNDEFINED);
         let components: Vec<_> =
             self.components().iter().map(|value| append(Expression::Literal(value.literal()))).collect();
-        match components[..] {
-            [only] => only,
-            _ => append(Expression::Compose { ty, components }),
+        match (column, &components[..]) {
+            (_, &[only]) => only,
+            (None, _) => append(Expression::Compose { ty, components }),
+            (Some((rows, column)), _) => {
+                let columns = components
+                    .chunks(rows)
+                    .map(|part| Expression::Compose { ty: column, components: part.to_vec() });
+                let components = columns.map(&mut append).collect();
+                append(Expression::Compose { ty, components })
+            }
         }
     }
 
@@ -42,6 +55,10 @@ impl Constant {
             return first.wgsl();
         }
         let components: Vec<_> = self.components().iter().map(|value| value.wgsl()).collect();
+        if let Some(rows) = self.rows {
+            let (rows, columns) = (rows as usize, self.size / rows as usize);
+            return format!("mat{columns}x{rows}<{}>({})", first.type_name(), components.join(", "));
+        }
         format!("vec{}<{}>({})", self.size, first.type_name(), components.join(", "))
     }
 
@@ -49,8 +66,11 @@ impl Constant {
     pub(super) fn form(inner: &TypeInner) -> Option<String> {
         let (size, scalar) = parts(inner)?;
         let is_settable = scalar.width == 4 || scalar.kind == ScalarKind::Bool;
-        is_settable
-            .then(|| if size == 1 { "VALUE".to_owned() } else { ["X", "Y", "Z", "W"][..size].join(",") })
+        is_settable.then(|| match size {
+            1 => "VALUE".to_owned(),
+            2..=4 => ["X", "Y", "Z", "W"][..size].join(","),
+            _ => (1..=size).map(|at| format!("M{at}")).collect::<Vec<_>>().join(","),
+        })
     }
 
     /// Reads a value of a type from what a user wrote for `name`.
@@ -61,15 +81,17 @@ impl Constant {
     pub(super) fn parse(name: &str, inner: &TypeInner, written: &str) -> Result<Self, String> {
         let unsettable = || {
             format!(
-                "`{name}` is of a type that cannot be set: only numbers of 32 bits, bool, and vectors of them"
+                "`{name}` is of a type that cannot be set: only numbers of 32 bits, bool, and vectors and matrices of them"
             )
         };
         let (form, (size, scalar)) = Self::form(inner).zip(parts(inner)).ok_or_else(unsettable)?;
         let parts: Vec<_> = if size == 1 { vec![written] } else { written.split(',').collect() };
         if parts.len() != size {
+            let number = type_name(scalar);
+            let shape =
+                if size > 4 { format!("a matrix of {number}") } else { format!("vec{size}<{number}>") };
             return Err(format!(
-                "`{name}` is vec{size}<{}> and takes {size} values, --set {name}={form}, not {}",
-                type_name(scalar),
+                "`{name}` is {shape} and takes {size} values, --set {name}={form}, not {}",
                 parts.len()
             ));
         }
@@ -77,7 +99,11 @@ impl Constant {
         for part in parts {
             values.push(Value::parse(scalar, part).map_err(|error| format!("`{name}`: {error}"))?);
         }
-        Ok(Self { values: core::array::from_fn(|at| values[at.min(size - 1)]), size })
+        let rows = match *inner {
+            TypeInner::Matrix { rows, .. } => Some(rows),
+            _ => None,
+        };
+        Ok(Self { values: core::array::from_fn(|at| values[at.min(size - 1)]), size, rows })
     }
 }
 
@@ -86,6 +112,7 @@ fn parts(inner: &TypeInner) -> Option<(usize, Scalar)> {
     match *inner {
         TypeInner::Scalar(scalar) => Some((1, scalar)),
         TypeInner::Vector { size, scalar } => Some((size as usize, scalar)),
+        TypeInner::Matrix { columns, rows, scalar } => Some((columns as usize * rows as usize, scalar)),
         _ => None,
     }
 }

@@ -97,7 +97,7 @@ pub(super) fn allowed() -> String {
         .map(|(name, ty, _)| format!("{name}: {}", described_inner(&module, &ty.inner)))
         .collect();
     format!(
-        "it returns f32 (float), and its parameters are any of {}, hash_scale: f32, in any order and under the usual names or \
+        "it returns f32 (float) or has a test of an alpha, and its parameters are any of {}, hash_scale: f32, in any order and under the usual names or \
          those that --map position=NAME gives, and numbers or vectors of other names whose value is given by --set NAME=VALUE; or \
          it is a hash, from one vec4<u32> (three indices of a cell and its octave) to u32",
         list.join(", ")

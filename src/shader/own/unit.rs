@@ -8,6 +8,7 @@ use super::directives::{Directive, directives, functions, in_directives};
 use super::error::Fault;
 use super::includes::Includes;
 use super::items::{items, reached};
+use super::missing::put_in;
 use super::options::{Options, THRESHOLD};
 use super::scan::{Token, tokens};
 use super::signature::absent;
@@ -86,6 +87,23 @@ pub(super) fn unit(
         })?;
         asked.settings.retain(|name, _| !macros.contains(name));
     }
+    text = {
+        let words = tokens(&text)?;
+        let lines = directives(&text, &words);
+        let in_directive = in_directives(&lines, words.len());
+        let all = items(&text, &words, &lines);
+        let file = File {
+            text: &text,
+            tokens: &words,
+            directives: &lines,
+            in_directive: &in_directive,
+            items: &all,
+            dialect,
+        };
+        let edits = put_in(&file, &mut asked);
+        drop((words, lines, all));
+        if edits.is_empty() { text } else { sources.exchange(&text, edits) }
+    };
     let words = tokens(&text)?;
     let lines = directives(&text, &words);
     let in_directive = in_directives(&lines, words.len());

@@ -35,7 +35,7 @@ pub(super) fn fill_uniforms(
         let at = module.global_variables.get_span(handle).to_range();
         let value = Constant::parse(&name, inner, &written).map_err(|error| Fault::new(error).at(at))?;
         let ty = variable.ty;
-        let init = value.append(ty, &mut module.global_expressions);
+        let init = value.append(ty, module);
         let variable = &mut module.global_variables[handle];
         variable.space = AddressSpace::Private;
         variable.binding = None;

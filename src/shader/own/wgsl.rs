@@ -96,7 +96,7 @@ fn blank_imports(bytes: &mut [u8], tokens: &[Token]) -> Result<(), Fault> {
         if word(bytes, index) != b"#" {
             continue;
         }
-        if !matches!(&word(bytes, index + 1)[..], b"import" | b"define_import_path") {
+        if !matches!(&word(bytes, index + 1)[..], b"import" | b"include" | b"define_import_path") {
             let message = "WGSL has no directives; those of an engine are to be carried out before";
             return Err(Fault::new(message).at(Some(token.at.clone())));
         }

@@ -1,0 +1,218 @@
+#import bevy_pbr::{
+    pbr_fragment::pbr_input_from_standard_material,
+    pbr_functions::apply_pbr_lighting,
+    forward_io::{FragmentOutput},
+}
+
+// hashed-alpha 0.1.0: Listing 1 with every repair (not in the paper), join interpolate, hash mm4, noise of 1 pixels
+// After C. Wyman and M. McGuire, "Improved Alpha Testing Using Hashed Sampling" (2017).
+// Discard a fragment where its alpha is below threshold(position, dpdx, dpdy).
+// Verify it: hashed-alpha check FILE --nested-phase
+//   position: position on the surface, object units
+//   dpdx: its change to the next pixel on the right, object units per pixel
+//   dpdy: its change to the next pixel along screen y, object units per pixel
+
+// One cell of the grid that cuts space at one scale, and the octave of that scale as one word.
+struct Cell {
+    index: vec3<f32>,
+    octave: u32,
+}
+
+// Packs the octave of each axis into one word; equal octaves give that octave.
+fn octave_word(octave: vec3<i32>) -> u32 {
+    let word = bitcast<vec3<u32>>(octave);
+    return word.x + ((word.y - word.x) << 11u) + ((word.z - word.x) << 21u);
+}
+
+// The low 32 bits of an integral float in two's complement; saturates beyond 64 bits, and NaN gives 0.
+fn to_word(x: f32) -> u32 {
+    let bits = bitcast<u32>(x);
+    let exponent = (bits >> 23u) & 0xffu;
+    if exponent < 158u {
+        return bitcast<u32>(i32(x));
+    }
+    // From 2^31 on conversions differ among devices, so the bits are shifted into place.
+    let negative = (bits >> 31u) == 1u;
+    let mantissa = (bits & 0x7fffffu) | 0x800000u;
+    if exponent >= 190u {
+        let is_nan = exponent == 255u && mantissa != 0x800000u;
+        return select(0xffffffffu, 0u, negative || is_nan);
+    }
+    let places = exponent - 150u;
+    let magnitude = select(0u, mantissa << (places & 31u), places < 32u);
+    return select(magnitude, 0u - magnitude, negative);
+}
+
+// Maps a word to (2k + 1) / 2^24 with k its upper 23 bits: in [2^-24, 1 - 2^-24], never 0 and never 1.
+fn open_lattice(word: u32) -> f32 {
+    return f32(2u * (word >> 9u) + 1u) * 0x1p-24f;
+}
+
+fn rotated_left(word: u32, places: u32) -> u32 {
+    return (word << places) | (word >> (32u - places));
+}
+
+fn murmur_step(state: u32, word: u32) -> u32 {
+    let mixed = state ^ (rotated_left(word * 0xcc9e2d51u, 15u) * 0x1b873593u);
+    return rotated_left(mixed, 13u) * 5u + 0xe6546b64u;
+}
+
+// The end of MurmurHash3 (x86, 32 bits) over four words.
+fn murmur_end(state: u32) -> u32 {
+    var h = state ^ 16u;
+    h = (h ^ (h >> 16u)) * 0x85ebca6bu;
+    h = (h ^ (h >> 13u)) * 0xc2b2ae35u;
+    return h ^ (h >> 16u);
+}
+
+// MurmurHash3 (x86, 32 bits, seed 0) over x, y, z and the octave. Not in the paper.
+fn hash_cell(cell: Cell) -> f32 {
+    var h = murmur_step(0u, to_word(cell.index.x));
+    h = murmur_step(h, to_word(cell.index.y));
+    h = murmur_step(h, to_word(cell.index.z));
+    return open_lattice(murmur_end(murmur_step(h, cell.octave)));
+}
+
+// The longest side of a cell stays between these, where neither it nor its inverse nor an index overflows.
+const SMALLEST_SIDE: f32 = 0x1p-100f;
+const GREATEST_SIDE: f32 = 0x1p100f;
+
+// The octave and the place within it, in [0, 1), along each axis. Not in the paper.
+struct Scales {
+    octave: vec3<i32>,
+    fraction: vec3<f32>,
+}
+
+fn largest_component(v: vec3<f32>) -> f32 {
+    return max(max(abs(v.x), abs(v.y)), abs(v.z));
+}
+
+// Raises sides below 2^-21 of the largest coordinate, so that an index stays below 2^31, or below 2^-5 of the longest
+// side, and bounds all of them.
+fn floored(side: vec3<f32>, position: vec3<f32>) -> vec3<f32> {
+    let coordinate = largest_component(position) * 0x1p-21f;
+    let longest = clamp(max(largest_component(side), coordinate), SMALLEST_SIDE, GREATEST_SIDE);
+    let smallest = max(longest * 0.03125, min(coordinate, GREATEST_SIDE));
+    return clamp(side, vec3<f32>(smallest), vec3<f32>(longest));
+}
+
+// Cuts cells per object unit, all normal and above 0, to octaves: the octave out of the bits of the exponent, the
+// fraction out of those of the mantissa, so that the two cannot disagree.
+fn by_exponent(pixel_scale: vec3<f32>) -> Scales {
+    let bits = bitcast<vec3<u32>>(pixel_scale);
+    let octave = bitcast<vec3<i32>>(bits >> vec3<u32>(23u)) - 127;
+    let mantissa = bitcast<vec3<f32>>((bits & vec3<u32>(0x7fffffu)) | vec3<u32>(0x3f800000u));
+    return Scales(octave, clamp(log2(mantissa), vec3<f32>(0.0), vec3<f32>(0.99999994)));
+}
+
+// Two to the power of an octave in [-126, 127].
+fn power_of_two(octave: vec3<i32>) -> vec3<f32> {
+    return bitcast<vec3<f32>>(bitcast<vec3<u32>>(octave + 127) << vec3<u32>(23u));
+}
+
+// The cell of a position in the grid with 2^octave cells per object unit. Cells of even octaves begin 1/3 of a cell
+// below whole numbers, on which the planes of models lie, and those of odd octaves 2/3; so they nest.
+fn nested_cell(position: vec3<f32>, octave: vec3<i32>) -> Cell {
+    let scaled = power_of_two(octave) * position;
+    let whole = floor(scaled);
+    let is_even = (octave & vec3<i32>(1)) == vec3<i32>(0);
+    let boundary = select(vec3<f32>(0.33333334), vec3<f32>(0.6666667), is_even);
+    let index = select(whole, whole + 1.0, scaled - whole >= boundary);
+    return Cell(index, octave_word(octave));
+}
+
+// Euclidean length, summed from left to right; drivers add the terms of the built-in one in orders of their own.
+fn length_of(v: vec3<f32>) -> f32 {
+    return sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
+}
+
+// Euclidean length of a finite vector; scaled where the plain sum of squares under- or overflows.
+fn safe_length(v: vec3<f32>) -> f32 {
+    let plain = length_of(v);
+    if plain > 0x1p-50f && plain < 0x1p60f {
+        return plain;
+    }
+    let largest = largest_component(v);
+    if largest == 0.0 {
+        return 0.0;
+    }
+    return largest * length_of(v / largest);
+}
+
+// The scales of Listing 1 for every finite footprint: the same along each axis.
+fn robust_scales(position: vec3<f32>, dpdx: vec3<f32>, dpdy: vec3<f32>, hash_scale: f32) -> Scales {
+    let max_derivative = max(safe_length(dpdx), safe_length(dpdy));
+    let bounded_scale = clamp(hash_scale, SMALLEST_SIDE, GREATEST_SIDE);
+    let side = vec3<f32>(bounded_scale * min(max_derivative, GREATEST_SIDE));
+    return by_exponent(1.0 / floored(side, position));
+}
+
+// Eq. 2 without a division by zero: in [0, 1] and non-decreasing in x for every x and lerp_factor in [0, 1].
+fn cdf(x: f32, lerp_factor: f32) -> f32 {
+    let a = min(lerp_factor, 1.0 - lerp_factor);
+    let b = 1.0 - a;
+    let from_top = 1.0 - x;
+    if x < a {
+        return 0.5 * x * ((x / a) / b);
+    }
+    if from_top < a {
+        return 1.0 - 0.5 * from_top * ((from_top / a) / b);
+    }
+    return (x - 0.5 * a) / b;
+}
+
+// The paper's join: a linear mixture, made uniform by Eq. 2.
+fn interpolated(position: vec3<f32>, scales: Scales, weight: f32) -> f32 {
+    let hash_coarse = hash_cell(nested_cell(position, scales.octave));
+    let hash_fine = hash_cell(nested_cell(position, scales.octave + 1));
+    let mixture = (1.0 - weight) * hash_coarse + weight * hash_fine;
+    return cdf(mixture, weight);
+}
+
+fn joined(position: vec3<f32>, scales: Scales) -> f32 {
+    return interpolated(position, scales, scales.fraction.x);
+}
+
+// True for every f32 but NaN and the infinities. By bits: compilers may fold `x != x` to false.
+fn is_finite(x: f32) -> bool {
+    return (bitcast<u32>(x) & 0x7f800000u) != 0x7f800000u;
+}
+
+fn all_finite(v: vec3<f32>) -> bool {
+    return is_finite(v.x) && is_finite(v.y) && is_finite(v.z);
+}
+
+// The threshold with every repair, in [2^-24, 1]. An input that is no number has none and gets that of the
+// traditional alpha test, 1/2. Not in the paper.
+fn robust(position: vec3<f32>, dpdx: vec3<f32>, dpdy: vec3<f32>, hash_scale: f32) -> f32 {
+    let has_footprint = all_finite(position) && all_finite(dpdx) && all_finite(dpdy);
+    if !(has_footprint && is_finite(hash_scale) && hash_scale > 0.0) {
+        return 0.5;
+    }
+    let scales = robust_scales(position, dpdx, dpdy, hash_scale);
+    return clamp(joined(position, scales), 0x1p-24f, 1.0);
+}
+
+fn threshold(position: vec3<f32>, dpdx: vec3<f32>, dpdy: vec3<f32>) -> f32 {
+    return robust(position, dpdx, dpdy, 1.0f);
+}
+
+struct HashedVertexOutput {
+    @builtin(position) position: vec4<f32>,
+    @location(0) world_position: vec4<f32>,
+    @location(1) world_normal: vec3<f32>,
+    @location(2) uv: vec2<f32>,
+    @location(8) local_position: vec3<f32>,
+}
+
+@fragment
+fn fragment(in: HashedVertexOutput, @builtin(front_facing) is_front: bool) -> FragmentOutput {
+    var input = pbr_input_from_standard_material(in, is_front);
+    let alpha = input.material.base_color.a;
+    if alpha < threshold(in.local_position, dpdx(in.local_position), dpdy(in.local_position)) {
+        discard;
+    }
+    var out: FragmentOutput;
+    out.color = apply_pbr_lighting(input);
+    return out;
+}
