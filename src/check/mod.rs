@@ -37,6 +37,7 @@ pub mod input;
 #[doc(hidden)]
 pub mod judge;
 pub mod known;
+// mend
 #[doc(hidden)]
 pub mod outcome;
 #[doc(hidden)]

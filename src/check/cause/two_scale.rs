@@ -91,7 +91,11 @@ impl Measured {
 
 /// Finds the way in which a pixel is measured: the one under which any two views of one scale have one threshold, whatever the
 /// hash and the join; the sound one where it is.
-pub(super) fn measured(subject: &Subject<'_>, places: &[Fragment]) -> Option<Measured> {
+pub(super) fn measured(
+    subject: &Subject<'_>,
+    places: &[Fragment],
+    among: Option<&[&str]>,
+) -> Option<Measured> {
     let before = subject.thresholds(places);
     let share = |measure: &Measure| {
         let probe = Probe { subject, measure: *measure, finer: 0, lean: ALONE };
@@ -110,7 +114,7 @@ pub(super) fn measured(subject: &Subject<'_>, places: &[Fragment]) -> Option<Mea
     let mut sound = None;
     let mut best: Option<Measured> = None;
     for variant in [subject.variant, other] {
-        for measure in Measure::sizes(variant, subject.hash_scale) {
+        for measure in Measure::sizes(variant, subject.hash_scale).filter(|measure| measure.is_among(among)) {
             let share = share(&measure);
             let sound = *sound.get_or_insert(share);
             if share >= EXPLAINED && best.as_ref().is_none_or(|best| share > best.shares[0] + MORE) {
@@ -202,6 +206,7 @@ pub(super) fn explain(
     size: Measure,
     places: &[Fragment],
     steps: Option<&Steps>,
+    among: Option<&[&str]>,
     rng: &mut Xoshiro256PlusPlus,
 ) -> Option<Explained> {
     // Each of three thresholds may be half a step away.
@@ -209,7 +214,7 @@ pub(super) fn explain(
     let undone: Vec<Option<Undone>> = CORRECTIONS.iter().map(|c| Undone::of(c.of, ALONE)).collect();
     let mut sound = None;
     let mut best: Option<Explained> = None;
-    for measure in size.with_scales() {
+    for measure in size.with_scales().into_iter().filter(|measure| measure.is_among(among)) {
         // What a way with as many slips explains is not explained better.
         if best.as_ref().is_some_and(|best| best.share >= SURE && best.count <= measure.slips().count()) {
             break;

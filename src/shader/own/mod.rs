@@ -33,6 +33,7 @@ pub use isolated::READER;
 pub use language::{ENDINGS, Language, instead_of};
 pub use mapping::Taken;
 pub use options::Options;
+pub use scan::Token;
 pub use setting::{Constant, Value};
 pub use signature::{Binding, Input};
 
@@ -223,6 +224,12 @@ impl OwnShader {
     pub fn place(&self, span: Span) -> Option<Place> {
         span.to_range().and_then(|range| place(&self.source, self.prelude, range.start))
     }
+}
+
+/// Cuts a text into words and signs; none where it cannot be cut, as where a comment does not end.
+#[must_use]
+pub fn words(text: &str) -> Vec<Token> {
+    scan::tokens(text).unwrap_or_default()
 }
 
 /// The text of a file without its mark of order; where it is none, the part before the first wrong byte.
