@@ -56,8 +56,8 @@ pub fn examine(subject: &Subject<'_>) -> Examination {
     examined(subject, None)
 }
 
-/// The same, where of all wrong ways from the derivatives to a scale only those with slips of these names are tried: much
-/// faster, and as good for a threshold that has no others, as one that is being mended.
+/// The same, where of all wrong ways only those with slips of these names are tried: much faster, and as good for a threshold that
+/// has no others, as one that is being mended. Of what has another way nothing is told.
 #[must_use]
 pub fn examine_among(subject: &Subject<'_>, slips: &[&str]) -> Examination {
     examined(subject, Some(slips))
@@ -91,6 +91,10 @@ fn examined(subject: &Subject<'_>, among: Option<&[&str]>) -> Examination {
     let is_interpolated = subject.join == Join::Interpolate && !subject.bare_hash;
     let explained =
         if is_interpolated { two_scale::explain(subject, size, &places, steps.as_ref(), among, rng) } else { None };
+    // Of what is to be mended, nothing more is asked once it has another way.
+    if among.is_some() && is_interpolated && explained.is_none() {
+        return Examination { found: all, ..Examination::default() };
+    }
     let measure = explained.as_ref().map_or(size, |explained| explained.measure);
     let mut probe = Probe { subject, measure, finer: 0, lean: ALONE };
     // Where one cell alone has nothing to say, both are looked at.
@@ -123,7 +127,7 @@ fn examined(subject: &Subject<'_>, among: Option<&[&str]>) -> Examination {
     let is_explained = explained.is_some();
     match explained {
         Some(explained) => all.extend(explained.of_join(&probe, &faces)),
-        None if is_interpolated && among.is_none() => all.extend(two_scale::by_law(&probe, rng)),
+        None if is_interpolated => all.extend(two_scale::by_law(&probe, rng)),
         None => {}
     }
     all.extend(steps.map(|steps| steps.found));

@@ -32,9 +32,12 @@ const UINTS: [&str; 5] = ["0u", "1u", "8u", "16u", "0xffffffffu"];
 /// Statements at the end of a function in which Eq. 2 may stand.
 const LAST: usize = 3;
 
+/// How the paper's hash begins.
+pub(super) const SINE: &str = "fract(1.0e4 * sin(17.0 * ";
+
 /// The paper's hash of two numbers.
 fn sine_hash(x: &str, y: &str) -> String {
-    format!("fract(1.0e4 * sin(17.0 * {x} + 0.1 * {y}) * (0.1 + abs(sin(13.0 * {y} + {x}))))")
+    format!("{SINE}{x} + 0.1 * {y}) * (0.1 + abs(sin(13.0 * {y} + {x}))))")
 }
 
 /// A text on trial, and what its names mean.
@@ -155,6 +158,17 @@ pub(super) fn changes(sheet: &Sheet<'_>) -> Vec<Change> {
         sheet.lines(statement, &scope, &mut all);
     }
     all.all
+}
+
+/// The same with the root of one half as the listing rounds it, 0.707; nothing where it is so.
+pub(super) fn with_listed_root(syntax: &Syntax, text: &str) -> Option<Change> {
+    let numbers = syntax.statements.iter().flat_map(|statement| statement.value.all());
+    let is_root = |expr: &&Expr| {
+        let written = text[expr.at.clone()].trim_end_matches(['f', 'F']);
+        matches!(expr.kind, Kind::Number) && written.parse().is_ok_and(|x: f64| (0.7065..0.7075).contains(&x) && x != 0.707)
+    };
+    let edit = |expr: &Expr| Edit { at: expr.at.clone(), with: "0.707".to_owned() };
+    Change::new(text, numbers.filter(is_root).map(edit).collect())
 }
 
 /// Expressions, and whether what stands in their place needs no brackets.
@@ -301,6 +315,12 @@ impl Sheet<'_> {
                 scope.values.push(number);
             }
         }
+    }
+
+    /// Expressions of the derivatives of the position in the function on trial.
+    pub fn derivatives_of_function(&self) -> Option<[String; 2]> {
+        let function = self.syntax.functions.iter().find(|function| function.name == self.function)?;
+        self.derivatives_in(function, &self.syntax.globals)
     }
 
     /// Expressions of the derivatives of the position in a function.
@@ -506,6 +526,8 @@ impl Sheet<'_> {
             return;
         }
         let weights = &scope.weights;
+        let fractions = scope.logs.iter().filter(|_| !is_anisotropic).map(|l| format!("fract({l})"));
+        let weights = &weights.iter().cloned().chain(fractions).collect::<Vec<_>>();
         if is_anisotropic {
             for v in scope.of(Type::VEC3) {
                 for loc in [v.clone(), format!("fract({v})")] {

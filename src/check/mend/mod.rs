@@ -6,14 +6,18 @@
 
 mod change;
 mod edits;
+mod ours;
 mod syntax;
 
 use super::cause::{self, Examination, Found};
 use super::claims;
 use super::results::Results;
 use super::shaders;
-use super::{Budget, Draw, Subject, Suite, run_claims};
-use crate::scene::{Fragment, Scene};
+use super::{Budget, Claim, Draw, Subject, Suite, run_claims};
+use crate::scene::Fragment;
+use crate::stats::seed;
+use crate::threshold::footprint::Footprint;
+use glam::{DVec2, DVec3};
 use crate::shader::interpreter::DeviceModel;
 use crate::shader::own::{self, Language, Options, OwnShader};
 use crate::threshold::two_scale::Variant;
@@ -30,14 +34,29 @@ const ROUNDS: usize = 3;
 /// Changes that are tried together; the smallest that mends is looked for among them.
 const TOGETHER: usize = 96;
 
-/// How many times as many are tried once there is one with fewer slips, and none without.
-const MORE: usize = 3;
+/// How often as many are tried once there is one with fewer slips, and none without.
+const SOON: usize = 2;
+
+/// The same where all of them are without the same slip.
+const LATE: usize = 16;
 
 /// Texts with fewer slips of which further changes are tried, in each round.
 const KEPT: usize = 4;
 
+/// Those of them with the same slips.
+const ALIKE: usize = 2;
+
 /// Texts without a slip on which the claims are tried.
-const TRIED: usize = 8;
+const TRIED: usize = 6;
+
+/// Ways of putting the paper's hash into a text that are tried.
+const HASHES: usize = 3;
+
+/// Families of claims that speak against a hash.
+const OF_HASHES: [&str; 5] = ["hash.", "independence.", "atoms.", "cells.window", "uniform."];
+
+/// Changes of one text that are tried, at most.
+const MOST: usize = 3000;
 
 /// Fragments by whose thresholds two texts are told apart.
 const FRAGMENTS: usize = 200;
@@ -54,6 +73,8 @@ pub struct Broken<'a> {
     pub options: &'a Options,
     /// Which listing it follows.
     pub variant: Variant,
+    /// What has to hold afterwards.
+    pub claims: &'a [Claim],
     /// Adds what else it claims of itself.
     pub claiming: &'a (dyn Fn(Subject<'static>) -> Subject<'static> + Sync),
 }
@@ -87,6 +108,8 @@ struct Seen {
     text: String,
     examination: Examination,
     size: (usize, usize),
+    /// How little nearer to a mended text it is than the one that it was made of.
+    rank: usize,
 }
 
 /// Looks for the smallest change. `progress` is told how many texts were read.
@@ -102,13 +125,14 @@ pub fn mend(broken: &Broken<'_>, progress: &(dyn Fn(usize) + Sync)) -> Outcome {
         broken,
         is_explained: examination.is_explained,
         names: found.iter().map(|found| found.slip.name).collect(),
-        places: Scene::all()[0].footprints().step_by(997).take(FRAGMENTS).map(Fragment::from).collect(),
+        places: places(),
         values: Mutex::default(),
         tries: TRIED,
+        failed: Vec::new(),
         progress,
     };
     search.is_new(&subject);
-    let mut open = vec![Seen { text: broken.text.to_owned(), examination, size: (0, 0) }];
+    let mut open = vec![Seen { text: broken.text.to_owned(), examination, size: (0, 0), rank: 0 }];
     for _ in 0..ROUNDS {
         match search.round(&open) {
             Ok(text) => {
@@ -118,7 +142,17 @@ pub fn mend(broken: &Broken<'_>, progress: &(dyn Fn(usize) + Sync)) -> Outcome {
             Err(better) => open = better,
         }
     }
-    Outcome::Left(found)
+    // Where no small change mends it, its body goes.
+    let syntax = broken.syntax(broken.text);
+    let sheet = broken.sheet(broken.text, &syntax, Steps::ALL);
+    search.tries = 1;
+    match sheet.and_then(|sheet| ours::replaced(&sheet)).and_then(|text| search.passing(text)) {
+        Some(text) => {
+            let lines = lines_between(broken.text, &text);
+            Outcome::Mended(Mended { text, found, lines, is_replaced: true })
+        }
+        None => Outcome::Left(found),
+    }
 }
 
 impl Broken<'_> {
@@ -135,29 +169,61 @@ impl Broken<'_> {
         self.of_shader(&self.shader(text)?)
     }
 
+    fn syntax(&self, text: &str) -> Syntax {
+        Syntax::of(text, self.language == Language::Wgsl)
+    }
+
     /// Changes of a text, the smallest first.
     fn changes(&self, text: &str, wrong: Steps) -> Vec<Change> {
-        let syntax = Syntax::of(text, self.language == Language::Wgsl);
-        let Some(shader) = self.shader(text) else { return Vec::new() };
+        let syntax = self.syntax(text);
+        let Some(sheet) = self.sheet(text, &syntax, wrong) else { return Vec::new() };
+        let mut all = edits::changes(&sheet);
+        all.sort_by_key(Change::size);
+        all
+    }
+
+    /// What the names of a text mean.
+    fn sheet<'s>(&'s self, text: &'s str, syntax: &'s Syntax, wrong: Steps) -> Option<Sheet<'s>> {
+        let shader = self.shader(text)?;
         let named = |value: &str| {
             let taken = shader.taken.iter().find(|taken| taken.meaning == value).map(|taken| taken.name.clone());
             let name = self.options.map.get(value).cloned().or(taken).unwrap_or_else(|| value.to_owned());
             syntax.has(&self.options.function, &name).then_some(name)
         };
-        let sheet = Sheet {
+        Some(Sheet {
             text,
-            syntax: &syntax,
+            syntax,
             function: &self.options.function,
             variant: self.variant,
             position: named("position"),
             derivatives: named("dpdx").zip(named("dpdy")).map(|(x, y)| [x, y]),
             hash_scale: named("hash_scale").or_else(|| syntax.hash_scale()),
             wrong,
-        };
-        let mut all = edits::changes(&sheet);
-        all.sort_by_key(Change::size);
-        all
+        })
     }
+}
+
+/// Fragments that have nothing in common.
+fn places() -> Vec<Fragment> {
+    let rng = &mut seed::rng("mend", 0);
+    let mut between = |low: f64, high: f64| low + (high - low) * seed::uniform01(rng);
+    let mut vector = |reach: f64| DVec3::from_array([(); 3].map(|()| between(-reach, reach)));
+    let draw = |index: usize| {
+        let [position, dpdx, dpdy, other] = [vector(8.0), vector(0.2), vector(0.2), vector(8.0)];
+        let shrink = libm::exp2(-((index % 4) as f64));
+        let footprint = Footprint { position, dpdx: dpdx * shrink, dpdy };
+        Fragment {
+            world: position,
+            eye: position,
+            pixel: DVec2::new(index as f64, (index / 3) as f64) + 0.5,
+            texcoord: DVec2::new(other.x, other.y),
+            lod: other.z.abs(),
+            frame: index as u32 % 7,
+            layer: index as u32 % 5,
+            ..Fragment::from(Footprint { position, ..footprint })
+        }
+    };
+    (0..FRAGMENTS).map(draw).collect()
 }
 
 /// Slips on the way to a scale.
@@ -203,6 +269,8 @@ struct Search<'a> {
     /// Thresholds of the texts that were tried.
     values: Mutex<HashSet<Vec<u64>>>,
     tries: usize,
+    /// What spoke against texts without a slip.
+    failed: Vec<Vec<&'static str>>,
     progress: &'a (dyn Fn(usize) + Sync),
 }
 
@@ -227,25 +295,27 @@ impl Search<'_> {
         add(2, t);
         let t = std::time::Instant::now();
         let examination = new.then(|| cause::examine_among(&subject, &self.names))?;
+        if std::env::var("VX").is_ok() { eprintln!("X {:?} {} {:?}", similar_lines(self.broken.text, &text), examination.is_explained, examination.found.iter().map(|f| f.slip.name).collect::<Vec<_>>()); }
         add(4, t);
         if T[5].load(Relaxed) % 200 == 0 { eprintln!("DEBUG T {:?}", T.each_ref().map(|t| t.load(Relaxed))); }
-        Some(Seen { text, examination, size })
+        Some(Seen { text, examination, size, rank: 0 })
     }
 
     /// Tries the changes of some texts: a mended one, or those that are nearer to one.
     fn round(&mut self, open: &[Seen]) -> Result<String, Vec<Seen>> {
         let mut all: Vec<(&Seen, Change, (usize, usize))> = Vec::new();
         for seen in open {
-            let changes = self.broken.changes(&seen.text, wrong(&seen.examination)).into_iter();
+            let changes = self.broken.changes(&seen.text, wrong(&seen.examination)).into_iter().take(MOST);
             all.extend(changes.map(|change| {
                 let size = (seen.size.0 + change.lines, seen.size.1 + change.bytes);
                 (seen, change, size)
             }));
         }
-        all.sort_by_key(|(_, _, size)| *size);
+        all.sort_by_key(|(seen, _, size)| (seen.rank, *size));
         if std::env::var("V").is_ok() { eprintln!("DEBUG {} changes {:?}", all.len(), [1, 2, 3, 4].map(|n| all.iter().filter(|(_, c, _)| c.lines == n).count())); for s in open { eprintln!("OPEN {:?} {:?}", s.examination.found.iter().map(|f| f.slip.name).collect::<Vec<_>>(), similar_lines(self.broken.text, &s.text)); } if std::env::var("VV").is_ok() { for (s, c, _) in &all { eprintln!("C {:?}", c.edits.iter().map(|e| (&s.text[e.at.clone()], &e.with)).collect::<Vec<_>>()); } } }
         let mut better = Vec::new();
         let mut nearer_after = None;
+        let mut ways = HashSet::new();
         for (count, some) in all.chunks(TOGETHER).enumerate() {
             let tried: Vec<Seen> = some
                 .par_iter()
@@ -255,39 +325,80 @@ impl Search<'_> {
             for seen in tried {
                 let Examination { found, follows, .. } = &seen.examination;
                 if found.is_empty() && *follows {
-                    if self.tries > 0 && self.passes(&seen.text) {
-                        return Ok(seen.text);
+                    if let Some(text) = self.passing(seen.text) {
+                        return Ok(text);
                     }
                 } else if !found.is_empty() {
-                    if self.rank(&seen, open) == Some(0) {
-                        nearer_after.get_or_insert(count);
+                    if let Some(rank) = self.rank(&seen, open) {
+                        if rank == 0 {
+                            nearer_after.get_or_insert(count);
+                            ways.insert(names(&seen));
+                        }
+                        better.push(Seen { rank, ..seen });
                     }
-                    better.push(seen);
                 }
             }
-            if nearer_after.is_some_and(|first| count > first + MORE) {
+            // Each slip may be the one that goes first.
+            let patience = if ways.len() > 1 { SOON } else { LATE };
+            if nearer_after.is_some_and(|first| count > first + patience) {
                 break;
             }
         }
-        Err(self.nearer(better, open))
+        Err(self.nearer(better))
     }
 
-    /// Whether a text has no slip at all and passes the claims.
-    fn passes(&mut self, text: &str) -> bool {
-        let Some(subject) = self.broken.subject(text) else { return false };
-        let examined = cause::examine(&subject);
-        if !examined.found.is_empty() || !examined.follows {
-            return false;
+    /// A text that passes the claims: one without a slip, or that with the root of one half as the listing has it, or with the
+    /// hash of the paper where the claims speak against its own.
+    fn passing(&mut self, text: String) -> Option<String> {
+        let examined = cause::examine(&self.broken.subject(&text)?);
+        if !examined.found.is_empty() || !examined.follows || self.tries == 0 {
+            return None;
         }
         self.tries -= 1;
-        passes(&subject)
+        // Another root moves all cells a little, and one claim is enough to see it.
+        let listed = edits::with_listed_root(&self.broken.syntax(&text), &text).map(|change| change.applied(&text));
+        let text = match listed {
+            Some(listed) if !self.against(&text, &[claims::exact::CELLS])?.is_empty() => listed,
+            Some(_) | None => text,
+        };
+        let against = self.against(&text, self.broken.claims)?;
+        if against.is_empty() {
+            return Some(text);
+        }
+        if std::env::var("VC").is_ok() { eprintln!("AGAINST {against:?} {:?}", similar_lines(self.broken.text, &text)); }
+        // What another change of the same text does not help.
+        if self.failed.contains(&against) {
+            self.tries = 0;
+            return None;
+        }
+        self.failed.push(against.clone());
+        if !against.iter().any(|claim| OF_HASHES.iter().any(|family| claim.starts_with(family))) {
+            return None;
+        }
+        let changes = self.broken.changes(&text, Steps { hash: true, ..Steps::default() });
+        let is_sine = |change: &&Change| change.edits.iter().any(|edit| edit.with.contains(edits::SINE));
+        let texts = changes.iter().filter(is_sine).map(|change| change.applied(&text));
+        let is_sound = |text: &String| {
+            let examined = self.broken.subject(text).map(|subject| cause::examine(&subject));
+            examined.is_some_and(|examined| examined.found.is_empty() && examined.follows)
+        };
+        let mut sound = texts.filter(is_sound).take(HASHES);
+        sound.find(|text| self.against(text, self.broken.claims).is_some_and(|against| against.is_empty()))
+    }
+
+    /// Those of some claims that speak against a text and that the paper's own listing is not known for.
+    fn against(&self, text: &str, claims: &[Claim]) -> Option<Vec<&'static str>> {
+        let subject = self.broken.subject(text)?;
+        let draw = Draw { budget: Budget::Quick, reach: Suite::Paper.reach(), ..Draw::default() };
+        let outcomes = run_claims(claims, core::slice::from_ref(&subject), &draw, || {});
+        Some(Results::new(outcomes, Suite::Paper).news().map(|outcome| outcome.check).collect())
     }
 
     /// How much nearer a text is than those that it was made of: with fewer slips and no new one first, then with fewer, then with
     /// others.
     fn rank(&self, seen: &Seen, open: &[Seen]) -> Option<usize> {
         let before = open.iter().map(|seen| seen.examination.found.len()).min().unwrap_or(0);
-        let names: Vec<&str> = seen.examination.found.iter().map(|found| found.slip.name).collect();
+        let names = names(seen);
         let is_known = names.iter().all(|name| self.names.contains(name));
         if !seen.examination.is_explained && self.is_explained {
             return None;
@@ -302,15 +413,12 @@ impl Search<'_> {
     }
 
     /// The smallest texts with the fewest slips.
-    fn nearer(&self, better: Vec<Seen>, open: &[Seen]) -> Vec<Seen> {
-        let mut ranked: Vec<(usize, Seen)> =
-            better.into_iter().filter_map(|seen| Some((self.rank(&seen, open)?, seen))).collect();
-        ranked.sort_by_key(|(rank, seen)| (*rank, seen.examination.found.len(), seen.size));
+    fn nearer(&self, mut better: Vec<Seen>) -> Vec<Seen> {
+        better.sort_by_key(|seen| (seen.rank, seen.examination.found.len(), seen.size));
         let mut kept: Vec<Seen> = Vec::new();
-        for (_, seen) in ranked {
-            let names = |seen: &Seen| -> Vec<&str> { seen.examination.found.iter().map(|f| f.slip.name).collect() };
+        for seen in better {
             let same = kept.iter().filter(|other| names(other) == names(&seen)).count();
-            if kept.len() < KEPT && same < 2 {
+            if kept.len() < KEPT && same < ALIKE {
                 kept.push(seen);
             }
         }
@@ -318,12 +426,9 @@ impl Search<'_> {
     }
 }
 
-/// Whether nothing speaks against a subject that the paper's own listing is not known for.
-#[must_use]
-pub fn passes(subject: &Subject<'_>) -> bool {
-    let draw = Draw { budget: Budget::Quick, reach: Suite::Paper.reach(), ..Draw::default() };
-    let outcomes = run_claims(claims::ALL, core::slice::from_ref(subject), &draw, || {});
-    Results::new(outcomes, Suite::Paper).is_consistent()
+/// The slips of a text.
+fn names(seen: &Seen) -> Vec<&'static str> {
+    seen.examination.found.iter().map(|found| found.slip.name).collect()
 }
 
 fn similar_lines(a: &str, b: &str) -> Vec<String> { let a: Vec<_> = a.lines().collect(); b.lines().filter(|l| !a.contains(l)).map(str::to_owned).collect() }

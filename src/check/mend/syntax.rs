@@ -155,6 +155,14 @@ pub(super) struct Syntax {
     pub is_wgsl: bool,
 }
 
+/// Where a function stands.
+pub(super) struct Head {
+    /// Its first byte.
+    pub start: usize,
+    /// Its body.
+    pub end: Range<usize>,
+}
+
 struct Reader<'t> {
     text: &'t str,
     /// Words and signs, with those of several characters put together.
@@ -270,6 +278,25 @@ impl Syntax {
         let function = self.functions.iter().find(|other| other.name == function);
         let is_parameter = function.is_some_and(|f| f.parameters.iter().any(|(other, _)| other == name));
         is_parameter || self.globals.iter().any(|(other, _)| other == name)
+    }
+
+    /// Where a function begins, and its body with its brackets.
+    pub fn head(&self, function: &str, text: &str) -> Option<Head> {
+        let tokens = own::words(text);
+        let name = tokens.iter().filter_map(|token| token.function).find(|&name| &text[tokens[name].at.clone()] == function)?;
+        let before = if self.is_wgsl { "fn" } else { "" };
+        let start = tokens[..name].iter().rev().find(|token| before.is_empty() || &text[token.at.clone()] == before)?;
+        let open = tokens[name..].iter().position(|token| &text[token.at.clone()] == "{")? + name;
+        let mut depth = 0;
+        let close = tokens[open..].iter().find(|token| {
+            match &text[token.at.clone()] {
+                "{" => depth += 1,
+                "}" => depth -= 1,
+                _ => {}
+            }
+            depth == 0
+        })?;
+        Some(Head { start: start.at.start, end: tokens[open].at.start..close.at.end })
     }
 
     /// The constant that looks like the size of the noise.
