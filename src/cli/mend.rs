@@ -4,6 +4,7 @@ use super::args::CheckArgs;
 use super::failure::Failure;
 use super::shader_files::{self, ShaderFile};
 use super::{Ending, output, subjects};
+use hashed_alpha::check::claims;
 use hashed_alpha::check::mend::{Broken, Mended, Outcome, mend};
 use hashed_alpha::shader::own::{self, Language};
 use indicatif::ProgressBar;
@@ -26,7 +27,7 @@ pub fn run(args: &CheckArgs) -> Result<Ending, Failure> {
     }
     let refused = |source| Failure::File { action: "read", place: file.path.to_owned(), source };
     let text = std::fs::read_to_string(path).map_err(refused)?;
-    let claims = subjects::Claimed::of(&args.shader, &options);
+    let claimed = subjects::Claimed::of(&args.shader, &options);
     let name = file.name();
     let broken = Broken {
         file: &name,
@@ -34,7 +35,8 @@ pub fn run(args: &CheckArgs) -> Result<Ending, Failure> {
         text: &text,
         options: &options,
         variant: args.shader.variant,
-        claiming: &|subject| claims.by(subject),
+        claims: claims::ALL,
+        claiming: &|subject| claimed.by(subject),
     };
     let bar = ProgressBar::new_spinner();
     let told = AtomicU64::new(0);

@@ -25,7 +25,6 @@ use change::{Change, lines_between};
 use edits::{Sheet, Steps};
 use rayon::prelude::*;
 use std::collections::HashSet;
-use std::sync::Mutex;
 use syntax::Syntax;
 
 /// Changes that follow each other, at most: as many slips as are told at once, and one that they hide.
@@ -57,6 +56,12 @@ const OF_HASHES: [&str; 5] = ["hash.", "independence.", "atoms.", "cells.window"
 
 /// Changes of one text that are tried, at most.
 const MOST: usize = 3000;
+
+/// The size of the noise at which two texts are told apart.
+const HASH_SCALE: f64 = 0.4;
+
+/// Most texts that are tried for one file.
+const ALL: usize = 9000;
 
 /// Fragments by whose thresholds two texts are told apart.
 const FRAGMENTS: usize = 200;
@@ -126,14 +131,18 @@ pub fn mend(broken: &Broken<'_>, progress: &(dyn Fn(usize) + Sync)) -> Outcome {
         is_explained: examination.is_explained,
         names: found.iter().map(|found| found.slip.name).collect(),
         places: places(),
-        values: Mutex::default(),
+        known: HashSet::new(),
         tries: TRIED,
+        tried: 0,
         failed: Vec::new(),
         progress,
     };
-    search.is_new(&subject);
+    search.known.extend(search.values(&subject));
     let mut open = vec![Seen { text: broken.text.to_owned(), examination, size: (0, 0), rank: 0 }];
     for _ in 0..ROUNDS {
+        if search.tried > ALL {
+            break;
+        }
         match search.round(&open) {
             Ok(text) => {
                 let lines = lines_between(broken.text, &text);
@@ -235,14 +244,14 @@ const OF_SCALE: [&str; 20] = [
 ];
 
 /// Slips of the join and behind it.
-const OF_JOIN: [&str; 46] = [
+const OF_JOIN: [&str; 40] = [
     "coarser-for-finer", "octave-skipped", "one-octave-for-both", "coarse-octave-alone", "nearest-octave", "octave-rounded",
     "linear-weight", "weight-of-the-scale", "smoothstep-weight", "second-hash-from-the-first", "weights-that-add-up-to-more",
     "geometric-mean", "weights-swapped", "weight-always-half", "no-cdf", "case-by-lerp-factor", "divisor-without-two",
     "a-without-min", "first-cases-swapped", "last-case-missing", "middle-case-unshifted", "last-case-unmirrored",
     "cdf-of-equal-weights", "inverse-for-cdf", "density-for-cdf", "smoothstep-for-cdf", "cdf-twice", "larger-of-two",
     "product-of-two", "mean-of-two", "sum-that-wraps", "clamped-at-zero", "coarse-steps", "half-precision", "gamma-curve",
-    "srgb-curve", "around-a-cutoff", "safe-middle", "clamped-by-255ths", "clamped-below-opaque", "", "", "", "", "", "",
+    "srgb-curve", "around-a-cutoff", "safe-middle", "clamped-by-255ths", "clamped-below-opaque",
 ];
 
 /// The steps in which something is wrong: all but the hash where that is not known.
@@ -267,38 +276,41 @@ struct Search<'a> {
     is_explained: bool,
     places: Vec<Fragment>,
     /// Thresholds of the texts that were tried.
-    values: Mutex<HashSet<Vec<u64>>>,
+    known: HashSet<Vec<u64>>,
     tries: usize,
+    /// Texts that were read.
+    tried: usize,
     /// What spoke against texts without a slip.
     failed: Vec<Vec<&'static str>>,
     progress: &'a (dyn Fn(usize) + Sync),
 }
 
 impl Search<'_> {
-    /// Whether no text with these thresholds was tried before.
-    fn is_new(&self, subject: &Subject<'_>) -> bool {
-        let values = subject.thresholds(&self.places);
-        let bits = values.into_iter().map(f64::to_bits).collect();
-        subject.failure().is_none() && self.values.lock().is_ok_and(|mut seen| seen.insert(bits))
+    /// What a text makes of the places, in bits.
+    fn values(&self, subject: &Subject<'_>) -> Option<Vec<u64>> {
+        // At a size of 1 a factor and a divisor are one.
+        let rescaled = subject.at_hash_scale(HASH_SCALE);
+        let values = rescaled.as_ref().unwrap_or(subject).thresholds(&self.places);
+        subject.failure().is_none().then(|| values.into_iter().map(f64::to_bits).collect())
     }
 
-    fn seen(&self, text: String, size: (usize, usize)) -> Option<Seen> {
-        use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
-        static T: [AtomicU64; 8] = [const { AtomicU64::new(0) }; 8];
-        let t = std::time::Instant::now();
-        let add = |i: usize, t: std::time::Instant| { T[i].fetch_add(t.elapsed().as_micros() as u64, Relaxed); T[i + 1].fetch_add(1, Relaxed); };
-        let subject = self.broken.subject(&text);
-        add(0, t);
-        let subject = subject?;
-        let t = std::time::Instant::now();
-        let new = self.is_new(&subject);
-        add(2, t);
-        let t = std::time::Instant::now();
-        let examination = new.then(|| cause::examine_among(&subject, &self.names))?;
-        if std::env::var("VX").is_ok() { eprintln!("X {:?} {} {:?}", similar_lines(self.broken.text, &text), examination.is_explained, examination.found.iter().map(|f| f.slip.name).collect::<Vec<_>>()); }
-        add(4, t);
-        if T[5].load(Relaxed) % 200 == 0 { eprintln!("DEBUG T {:?}", T.each_ref().map(|t| t.load(Relaxed))); }
-        Some(Seen { text, examination, size, rank: 0 })
+    /// Reads some changed texts and asks the experiments of those that differ in their thresholds from all before.
+    fn seen(&mut self, some: &[(&Seen, Change, (usize, usize))]) -> Vec<Seen> {
+        let read = |(seen, change, size): &(&Seen, Change, (usize, usize))| {
+            let text = change.applied(&seen.text);
+            let subject = self.broken.subject(&text)?;
+            let values = self.values(&subject)?;
+            Some((text, subject, values, *size))
+        };
+        let read: Vec<_> = some.par_iter().filter_map(read).collect();
+        let others = read.into_iter().filter(|(_, _, values, _)| self.known.insert(values.clone()));
+        let others: Vec<_> = others.collect();
+        let names = &self.names;
+        let examined = |(text, subject, _, size): (String, Subject<'static>, Vec<u64>, (usize, usize))| {
+            let examination = cause::examine_among(&subject, names);
+            Seen { text, examination, size, rank: 0 }
+        };
+        others.into_par_iter().map(examined).collect()
     }
 
     /// Tries the changes of some texts: a mended one, or those that are nearer to one.
@@ -312,16 +324,16 @@ impl Search<'_> {
             }));
         }
         all.sort_by_key(|(seen, _, size)| (seen.rank, *size));
-        if std::env::var("V").is_ok() { eprintln!("DEBUG {} changes {:?}", all.len(), [1, 2, 3, 4].map(|n| all.iter().filter(|(_, c, _)| c.lines == n).count())); for s in open { eprintln!("OPEN {:?} {:?}", s.examination.found.iter().map(|f| f.slip.name).collect::<Vec<_>>(), similar_lines(self.broken.text, &s.text)); } if std::env::var("VV").is_ok() { for (s, c, _) in &all { eprintln!("C {:?}", c.edits.iter().map(|e| (&s.text[e.at.clone()], &e.with)).collect::<Vec<_>>()); } } }
         let mut better = Vec::new();
         let mut nearer_after = None;
         let mut ways = HashSet::new();
         for (count, some) in all.chunks(TOGETHER).enumerate() {
-            let tried: Vec<Seen> = some
-                .par_iter()
-                .filter_map(|(seen, change, size)| self.seen(change.applied(&seen.text), *size))
-                .collect();
+            let tried = self.seen(some);
             (self.progress)(some.len());
+            self.tried += some.len();
+            if self.tried > ALL {
+                break;
+            }
             for seen in tried {
                 let Examination { found, follows, .. } = &seen.examination;
                 if found.is_empty() && *follows {
@@ -365,7 +377,6 @@ impl Search<'_> {
         if against.is_empty() {
             return Some(text);
         }
-        if std::env::var("VC").is_ok() { eprintln!("AGAINST {against:?} {:?}", similar_lines(self.broken.text, &text)); }
         // What another change of the same text does not help.
         if self.failed.contains(&against) {
             self.tries = 0;
@@ -430,5 +441,3 @@ impl Search<'_> {
 fn names(seen: &Seen) -> Vec<&'static str> {
     seen.examination.found.iter().map(|found| found.slip.name).collect()
 }
-
-fn similar_lines(a: &str, b: &str) -> Vec<String> { let a: Vec<_> = a.lines().collect(); b.lines().filter(|l| !a.contains(l)).map(str::to_owned).collect() }
