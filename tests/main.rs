@@ -42,6 +42,8 @@ mod interpreter;
 #[cfg(feature = "shader")]
 mod interpreter_operations;
 #[cfg(feature = "shader")]
+mod mend;
+#[cfg(feature = "shader")]
 mod own_shader;
 #[cfg(feature = "shader")]
 mod shader_parity;

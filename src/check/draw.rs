@@ -59,8 +59,8 @@ impl Budget {
     }
 
     /// Says which budget draws about as many samples as are `needed`, where this one drew `n`.
-    pub(super) fn advice(self, n: usize, needed: usize) -> String {
-        let drawn = |budget: Self| n.saturating_mul(budget.quarters()) / self.quarters();
+    pub(super) fn advice(self, n: u64, needed: u64) -> String {
+        let drawn = |budget: Self| n.saturating_mul(budget.quarters() as u64) / self.quarters() as u64;
         let enough = Self::ALL.into_iter().find(|&budget| drawn(budget) >= needed);
         enough.map_or_else(
             || "no budget draws as many".to_owned(),

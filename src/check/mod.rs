@@ -37,6 +37,9 @@ pub mod input;
 #[doc(hidden)]
 pub mod judge;
 pub mod known;
+#[cfg(feature = "shader")]
+#[doc(hidden)]
+pub mod mend;
 #[doc(hidden)]
 pub mod outcome;
 #[doc(hidden)]

@@ -75,6 +75,7 @@ Examples:
   hashed-alpha check paper --only stability --only range --budget quick
   hashed-alpha check paper --expect findings.toml
   hashed-alpha check robust --until-failure --hours 0.5
+  hashed-alpha check my.glsl --mend > my.diff && git apply my.diff
   hashed-alpha check hash:mm4 --until-failure --out report-mm4
   hashed-alpha check my.wgsl#my_hash --until-failure
 
@@ -124,6 +125,11 @@ pub struct CheckArgs {
     /// TOML file of findings that are known and do not count as rejected
     #[arg(long, value_name = "FILE")]
     pub expect: Option<PathBuf>,
+    /// Write the smallest change of a shader file (GLSL, WGSL) after which its slips are gone and every claim holds that the paper's own
+    /// listing passes, as a unified diff on stdout; it was tried before it is written. Exit code 1 where none is found, 0 with a diff and where
+    /// nothing is to mend
+    #[arg(long, conflicts_with_all = ["literal", "format", "json", "suite", "only", "expect", "until_failure", "out", "no_report"])]
+    pub mend: bool,
     /// Double the samples of every claim until it fails, and say at which number. The verdict is valid whenever one stops; what
     /// is known is kept in the folder of the report, and the same command goes on from there. Ctrl-C ends with what is known
     #[arg(long, conflicts_with_all = ["suite", "expect", "no_report"])]

@@ -5,6 +5,7 @@
 //! | [`args`] | verbs, options and their help |
 //! | [`check`], [`compare`], [`eval`], [`explain`], [`render`], [`scenes`], [`shader`] | one job a verb |
 //! | [`growth`] | `check --until-failure` |
+//! | [`mend`] | `check --mend` |
 //! | [`scene_files`] | what a typed scene means |
 //! | [`shader_files`] | what a typed shader file means |
 //! | [`subjects`] | what a typed subject means, and where it runs |
@@ -27,6 +28,7 @@ mod explain;
 mod failure;
 mod growth;
 mod known;
+mod mend;
 mod output;
 mod render;
 mod rows;
@@ -60,6 +62,7 @@ pub fn quiet_readers() {
 pub fn run(args: &Args) -> Result<Ending, Failure> {
     Isa::asked_for().map_err(Failure::Usage)?;
     match &args.verb {
+        Verb::Check(args) if args.mend => mend::run(args),
         Verb::Check(args) => check::run(args),
         Verb::Compare(args) => compare::run(args),
         Verb::Cost(args) => cost::run(args),

@@ -201,7 +201,7 @@ fn built_in(name: &str, on: On, args: &ShaderArgs) -> Result<Option<Vec<Asked>>,
 }
 
 /// What a shader claims of itself.
-struct Claimed {
+pub struct Claimed {
     variant: Variant,
     join: Join,
     nested_phase: bool,
@@ -209,10 +209,32 @@ struct Claimed {
     frames: Frames,
 }
 
+impl Claimed {
+    /// What the options say of a shader file.
+    pub fn of(args: &ShaderArgs, options: &own::Options) -> Self {
+        let set = || options.settings.get("hash_scale").and_then(|value| value.parse().ok());
+        let preset = Robust::new(args.variant).join;
+        Self {
+            variant: args.variant,
+            join: args.join.unwrap_or(if args.nested_phase { preset } else { Join::Interpolate }),
+            nested_phase: args.nested_phase,
+            hash_scale: args.hash_scale.or_else(set).unwrap_or(1.0),
+            frames: args.frames,
+        }
+    }
+
+    /// A subject that claims it.
+    pub fn by(&self, mut subject: Subject<'static>) -> Subject<'static> {
+        subject.join = self.join;
+        subject.nested_phase = self.nested_phase;
+        subject.hash_scale = self.hash_scale;
+        subject.frames = self.frames;
+        subject
+    }
+}
+
 fn file(typed: &ShaderFile<'_>, args: &ShaderArgs) -> Result<Vec<Asked>, Failure> {
     let options = typed.options(args)?;
-    let set = || options.settings.get("hash_scale").and_then(|value| value.parse().ok());
-    let hash_scale = args.hash_scale.or_else(set).unwrap_or(1.0);
     let shader = own::read(Path::new(typed.path), &options)?;
     if !shader.taken.is_empty() {
         let said: Vec<_> = shader.taken.iter().map(ToString::to_string).collect();
@@ -225,14 +247,7 @@ fn file(typed: &ShaderFile<'_>, args: &ShaderArgs) -> Result<Vec<Asked>, Failure
         let hashes = own_hash(&typed.name(), &shader, args)?;
         return Ok(hashes.into_iter().map(|asked| Asked { written: written.clone(), ..asked }).collect());
     }
-    let preset = Robust::new(args.variant).join;
-    let claims = Claimed {
-        variant: args.variant,
-        join: args.join.unwrap_or(if args.nested_phase { preset } else { Join::Interpolate }),
-        nested_phase: args.nested_phase,
-        hash_scale,
-        frames: args.frames,
-    };
+    let claims = Claimed::of(args, &options);
     let name = typed.name();
     let remarks = stops(&shader, args.variant)?;
     let subjects = placed(&name, &shader, args.on, args, &claims, None)?;
@@ -309,11 +324,8 @@ fn placed(
             }]
         }
     };
-    let claiming = |(place, mut subject): (Place, Subject<'static>)| {
-        subject.join = claims.join;
-        subject.nested_phase = claims.nested_phase;
-        subject.hash_scale = claims.hash_scale;
-        subject.frames = claims.frames;
+    let claiming = |(place, subject): (Place, Subject<'static>)| {
+        let subject = claims.by(subject);
         Asked { subject, name: name.to_owned(), place, family, written: None }
     };
     Ok(subjects.into_iter().map(claiming).collect())

@@ -92,6 +92,9 @@ const LOGARITHMS: &[Logarithm] = &[
 /// The logarithms of lengths among which a view is sought.
 const LENGTHS: [f64; 2] = [-48.0, 48.0];
 
+/// A view has been found where its logarithm is no further than this from the one that is wanted.
+const CLOSE: f64 = 1.0e-12;
+
 /// One way from derivatives to the logarithm of the scale.
 #[derive(Clone, Copy)]
 pub(super) struct Measure {
@@ -142,6 +145,11 @@ impl Measure {
         [self.scale.slip, self.logarithm.slip].into_iter().flatten()
     }
 
+    /// Whether it has no slip but those of these names, where there are any.
+    pub fn is_among(&self, names: Option<&[&str]>) -> bool {
+        names.is_none_or(|names| self.slips().all(|slip| names.contains(&slip.name)))
+    }
+
     /// How many times as wide cells are as they should be, but for whole octaves.
     pub fn times(&self) -> f64 {
         self.scale.times
@@ -163,8 +171,10 @@ impl Measure {
 
     /// Derivatives at which the logarithm of the scale is a given one; none where there are none.
     pub fn view(&self, log_scale: DVec3) -> Option<[DVec3; 2]> {
-        let [x, y, z] = log_scale.to_array().map(|log| self.length(log));
-        let dpdx = dvec3(x?, y?, z?);
+        let [x, y, z] = log_scale.to_array();
+        let along_x = self.length(x)?;
+        let along = |log: f64| if log == x { Some(along_x) } else { self.length(log) };
+        let dpdx = dvec3(along_x, along(y)?, along(z)?);
         Some([dpdx, dpdx * dvec3(1.0, 1.0, -1.0)])
     }
 
@@ -179,9 +189,21 @@ impl Measure {
         if (at(low) > wanted) != (at(high) < wanted) && (at(low) < wanted) != (at(high) > wanted) {
             return None;
         }
-        for _ in 0..64 {
-            let middle = 0.5 * (low + high);
-            if (at(middle) < wanted) == rises { low = middle } else { high = middle }
+        // Nearly all are straight lines: the chord ends there at once, and the middle everywhere.
+        let [mut below, mut above] = [low, high].map(at);
+        for step in 0..128 {
+            let chord = low + (high - low) * ((wanted - below) / (above - below));
+            let is_inside = step % 2 == 0 && chord > low && chord < high;
+            let between = if is_inside { chord } else { 0.5 * (low + high) };
+            let value = at(between);
+            if (value - wanted).abs() < CLOSE {
+                return Some(libm::exp2(between));
+            }
+            if (value < wanted) == rises {
+                (low, below) = (between, value)
+            } else {
+                (high, above) = (between, value)
+            }
         }
         let found = 0.5 * (low + high);
         ((at(found) - wanted).abs() < 1.0e-6).then(|| libm::exp2(found))

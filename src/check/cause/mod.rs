@@ -32,6 +32,8 @@ pub struct Examination {
     pub found: Vec<Found>,
     /// Whether its values follow from what it shows of single cells, as Listing 1 or 2 says, without a slip on the way.
     pub follows: bool,
+    /// Whether a way is known by which they do, with slips on it or without.
+    pub is_explained: bool,
 }
 
 /// Finds the slips of a threshold.
@@ -51,6 +53,17 @@ pub struct Examination {
 /// ```
 #[must_use]
 pub fn examine(subject: &Subject<'_>) -> Examination {
+    examined(subject, None)
+}
+
+/// The same, where of all wrong ways only those with slips of these names are tried: much faster, and as good for a threshold that
+/// has no others, as one that is being mended. Of what has another way nothing is told.
+#[must_use]
+pub fn examine_among(subject: &Subject<'_>, slips: &[&str]) -> Examination {
+    examined(subject, Some(slips))
+}
+
+fn examined(subject: &Subject<'_>, among: Option<&[&str]>) -> Examination {
     /// A size of the noise that is no power of two, so that every way of reading it shows.
     const HASH_SCALE: f64 = 0.4;
     let rescaled = subject.at_hash_scale(HASH_SCALE);
@@ -60,7 +73,7 @@ pub fn examine(subject: &Subject<'_>) -> Examination {
     let reading = reads::look(subject, rng);
     all.extend(reading.found);
     if !reading.follows_position {
-        return Examination { found: all, follows: false };
+        return Examination { found: all, ..Examination::default() };
     }
     let steps = two_scale::steps(subject, rng);
     if let Some(steps) = &steps
@@ -68,16 +81,23 @@ pub fn examine(subject: &Subject<'_>) -> Examination {
     {
         // Coordinates of three digits make anything of cells and hashes.
         all.push(steps.found.clone());
-        return Examination { found: all, follows: false };
+        return Examination { found: all, ..Examination::default() };
     }
     let places = two_scale::some_places(subject, rng);
-    let measured = two_scale::measured(subject, &places);
+    let measured = two_scale::measured(subject, &places, among);
     let size = measured
         .as_ref()
         .map_or_else(|| Measure::sound(subject.variant, subject.hash_scale), |measured| measured.measure);
     let is_interpolated = subject.join == Join::Interpolate && !subject.bare_hash;
-    let explained =
-        if is_interpolated { two_scale::explain(subject, size, &places, steps.as_ref(), rng) } else { None };
+    let explained = if is_interpolated {
+        two_scale::explain(subject, size, &places, steps.as_ref(), among, rng)
+    } else {
+        None
+    };
+    // Of what is to be mended, nothing more is asked once it has another way.
+    if among.is_some() && is_interpolated && explained.is_none() {
+        return Examination { found: all, ..Examination::default() };
+    }
     let measure = explained.as_ref().map_or(size, |explained| explained.measure);
     let mut probe = Probe { subject, measure, finer: 0, lean: ALONE };
     // Where one cell alone has nothing to say, both are looked at.
@@ -107,13 +127,13 @@ pub fn examine(subject: &Subject<'_>) -> Examination {
         }
         all.extend(of_hash);
     }
-    let follows = explained.is_some();
+    let is_explained = explained.is_some();
     match explained {
         Some(explained) => all.extend(explained.of_join(&probe, &faces)),
         None if is_interpolated => all.extend(two_scale::by_law(&probe, rng)),
         None => {}
     }
     all.extend(steps.map(|steps| steps.found));
-    let follows = all.is_empty() && follows;
-    Examination { found: all, follows }
+    let follows = all.is_empty() && is_explained;
+    Examination { found: all, follows, is_explained }
 }

@@ -91,7 +91,11 @@ impl Measured {
 
 /// Finds the way in which a pixel is measured: the one under which any two views of one scale have one threshold, whatever the
 /// hash and the join; the sound one where it is.
-pub(super) fn measured(subject: &Subject<'_>, places: &[Fragment]) -> Option<Measured> {
+pub(super) fn measured(
+    subject: &Subject<'_>,
+    places: &[Fragment],
+    among: Option<&[&str]>,
+) -> Option<Measured> {
     let before = subject.thresholds(places);
     let share = |measure: &Measure| {
         let probe = Probe { subject, measure: *measure, finer: 0, lean: ALONE };
@@ -110,7 +114,7 @@ pub(super) fn measured(subject: &Subject<'_>, places: &[Fragment]) -> Option<Mea
     let mut sound = None;
     let mut best: Option<Measured> = None;
     for variant in [subject.variant, other] {
-        for measure in Measure::sizes(variant, subject.hash_scale) {
+        for measure in Measure::sizes(variant, subject.hash_scale).filter(|measure| measure.is_among(among)) {
             let share = share(&measure);
             let sound = *sound.get_or_insert(share);
             if share >= EXPLAINED && best.as_ref().is_none_or(|best| share > best.shares[0] + MORE) {
@@ -202,14 +206,21 @@ pub(super) fn explain(
     size: Measure,
     places: &[Fragment],
     steps: Option<&Steps>,
+    among: Option<&[&str]>,
     rng: &mut Xoshiro256PlusPlus,
 ) -> Option<Explained> {
     // Each of three thresholds may be half a step away.
     let near = steps.map_or(NEAR, |steps| (1.5 / steps.count as f64).max(NEAR));
-    let undone: Vec<Option<Undone>> = CORRECTIONS.iter().map(|c| Undone::of(c.of, ALONE)).collect();
+    let scales = among;
+    // Two hashes without a weight look like one hash with any correction.
+    let among = among.filter(|names| !WEIGHTLESS.iter().any(|(slip, _)| names.contains(&slip.name)));
+    let is_sought =
+        |slip: Option<Slip>| among.is_none_or(|names| slip.is_some_and(|slip| names.contains(&slip.name)));
+    let undone: Vec<Option<Undone>> =
+        CORRECTIONS.iter().map(|c| is_sought(c.slip).then(|| Undone::of(c.of, ALONE)).flatten()).collect();
     let mut sound = None;
     let mut best: Option<Explained> = None;
-    for measure in size.with_scales() {
+    for measure in size.with_scales().into_iter().filter(|measure| measure.is_among(scales)) {
         // What a way with as many slips explains is not explained better.
         if best.as_ref().is_some_and(|best| best.share >= SURE && best.count <= measure.slips().count()) {
             break;
@@ -217,10 +228,18 @@ pub(super) fn explain(
         let Some(seen) = see(subject, measure, places, rng) else { continue };
         let as_it_is = Law { slip: None, shown: String::new(), bend: Bend::Clamp([0.0, 1.0]) };
         let is_uniform = seen.laws.iter().any(|law| law.slip.is_none());
-        let bent = seen.laws.iter().filter(|law| law.slip.is_some()).cloned();
+        let is_tried =
+            |slip: Option<Slip>| slip.is_none_or(|slip| among.is_none_or(|names| names.contains(&slip.name)));
+        // What shows one cell alone is told by its law.
+        let is_among =
+            |form: &&Form| among.is_none() || form.is_weightless || form.is_reversed || is_tried(form.slip);
+        let bent = seen.laws.iter().filter(|law| law.slip.is_some() && is_tried(law.slip)).cloned();
         for law in core::iter::once(as_it_is).chain(bent) {
-            for form in FORMS {
+            for form in FORMS.iter().filter(|form| is_among(form)) {
                 for (correction, undone) in CORRECTIONS.iter().zip(&undone) {
+                    if !is_tried(correction.slip) {
+                        continue;
+                    }
                     let slips = [law.slip, form.slip, correction.slip].into_iter().flatten();
                     let count = measure.slips().count() + slips.count();
                     let is_sound = correction.slip.is_none();

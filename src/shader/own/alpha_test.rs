@@ -6,7 +6,7 @@ use super::directives::Directive;
 use super::error::{Fault, Place};
 use super::items::{Item, reached};
 use super::mapping::is_alpha;
-use super::options::Options;
+use super::options::{ALPHA, Options};
 use super::scan::Token;
 use super::sources::Put;
 use super::statements::{Body, Kind, Statement, is_name};
@@ -186,7 +186,7 @@ impl<'t> Head<'t> {
 
     /// The parameter that holds the alpha, as a number or in a colour.
     fn alpha(&self, asked: &Options) -> Option<&'t str> {
-        let is_it = |parameter: &&Parameter<'t>| match asked.map.get("alpha") {
+        let is_it = |parameter: &&Parameter<'t>| match asked.map.get(ALPHA) {
             Some(name) => name.split('.').next() == Some(parameter.name),
             None => is_alpha(parameter.name) && !asked.settings.contains_key(parameter.name),
         };
@@ -374,7 +374,7 @@ impl<'s> Search<'_, 's, '_> {
         };
         let (alpha, threshold) = if threshold_is_right { (left, right) } else { (right, left) };
         // An alpha that is changed on the way has another threshold than what it is compared with.
-        let is_said = self.asked.map.get("alpha").is_some_and(|name| name == self.body.written(&alpha));
+        let is_said = self.asked.map.get(ALPHA).is_some_and(|name| name == self.body.written(&alpha));
         let parameter = self.head.alpha(self.asked).filter(|_| !is_said);
         if parameter.is_some_and(|parameter| !self.is_as_given(&path, &alpha, parameter)) {
             return Ok(());
@@ -442,7 +442,7 @@ impl Side {
         let written = body.written(side);
         let said = asked
             .map
-            .get("alpha")
+            .get(ALPHA)
             .map(|name| name == written || body.names(side.clone()).any(|own| own == name));
         Self {
             is_said_alpha: said == Some(true),

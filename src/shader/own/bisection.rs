@@ -9,8 +9,7 @@ use super::body::Body;
 use super::error::Fault;
 use super::invalid::called_by;
 use super::mapping::{is_alpha, meaning_of, reached_from};
-use super::options::Options;
-use super::unit::ALPHA;
+use super::options::{ALPHA, Options};
 use naga::{
     AddressSpace, BinaryOperator, Block, Expression, Function, FunctionArgument, FunctionResult,
     GlobalVariable, Handle, Literal, LocalVariable, Module, Scalar, ScalarKind, Span, Statement, SwitchCase,

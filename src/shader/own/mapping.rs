@@ -3,9 +3,8 @@
 use super::body::Body;
 use super::error::Fault;
 use super::invalid::called_by;
-use super::options::Options;
+use super::options::{ALPHA, Options};
 use super::signature::{self, described, described_inner};
-use super::unit::ALPHA;
 use super::variables::written_by;
 use crate::shader::spelling::likely;
 use core::fmt;

@@ -42,7 +42,8 @@ pub use error::{Place, ShaderError};
 pub use isolated::READER;
 pub use language::{ENDINGS, Language, instead_of};
 pub use mapping::Taken;
-pub use options::{Options, THRESHOLD};
+pub use options::{LARGEST_FILE, Options, THRESHOLD};
+pub use scan::Token;
 pub use setting::{Constant, Value};
 pub use signature::{Binding, Input};
 
@@ -59,9 +60,6 @@ use std::io::Read;
 use std::path::Path;
 use unit::Unit;
 
-/// The largest file that is read.
-pub const LARGEST_FILE: u64 = 4 << 20;
-
 /// A user's threshold, ready to run.
 #[derive(Clone, Debug)]
 pub struct OwnShader {
@@ -71,6 +69,8 @@ pub struct OwnShader {
     pub info: ModuleInfo,
     /// The name of the function in `module`.
     pub function: String,
+    /// Its name in the file.
+    pub named: String,
     /// Its parameters in order.
     pub bindings: Vec<Binding>,
     /// What was taken for a value of a fragment under another name than ours.
@@ -135,14 +135,15 @@ fn parse_in(
     let mut prelude = 0;
     let outcome = read_text(folder, file, language, bytes, options, &mut sources, &mut prelude);
     match outcome {
-        Ok((reduced, notes)) => {
+        Ok((reduced, named, notes)) => {
             let reduce::Reduced { module, info, function, bindings, taken, bisected } = reduced;
             let notes = notes.into_iter().chain(bisected).collect();
-            let defined_at = definition(bytes, &options.function);
+            let defined_at = definition(bytes, &named);
             Ok(OwnShader {
                 module,
                 info,
                 function,
+                named,
                 bindings,
                 taken,
                 notes,
@@ -169,7 +170,7 @@ fn read_text(
     options: &Options,
     sources: &mut Sources,
     prelude: &mut usize,
-) -> Result<(reduce::Reduced, Vec<String>), Fault> {
+) -> Result<(reduce::Reduced, String, Vec<String>), Fault> {
     if bytes.iter().all(u8::is_ascii_whitespace) {
         return Err(Fault::new("the file is empty"));
     }
@@ -180,7 +181,7 @@ fn read_text(
     if language == Language::SpirV {
         let owned = bytes.to_vec();
         let front = isolated(move || front::read_spir_v(&owned))?;
-        return Ok((reduced(front, options, BTreeSet::new())?, Vec::new()));
+        return Ok((reduced(front, options, BTreeSet::new())?, options.function.clone(), Vec::new()));
     }
     let (text, fault) = decoded(bytes);
     *sources = Sources::of(file, text);
@@ -202,7 +203,7 @@ fn read_text(
         }
     };
     let unit = unit::unit(text, dialect, &options, folder, sources)?;
-    let Unit { text, asked, notes, pixels } = unit;
+    let Unit { text, asked, named, notes, pixels } = unit;
     let front = match dialect {
         Dialect::Wgsl => wgsl::read(&text, &asked),
         Dialect::Glsl => glsl::read(&text, &asked, prelude),
@@ -212,7 +213,7 @@ fn read_text(
         // What is found from here on has no place in it.
         *sources = Sources::default();
     }
-    Ok((reduced(front, &asked, pixels)?, notes))
+    Ok((reduced(front, &asked, pixels)?, named, notes))
 }
 
 /// Makes the assembled threshold of `options` ready to run, as if it came from a file; a noise size and a sample index
@@ -271,6 +272,12 @@ impl OwnShader {
     pub fn place(&self, span: Span) -> Option<Place> {
         self.error_at(span, String::new()).place
     }
+}
+
+/// Cuts a text into words and signs; none where it cannot be cut, as where a comment does not end.
+#[must_use]
+pub fn words(text: &str) -> Vec<Token> {
+    scan::tokens(text).unwrap_or_default()
 }
 
 /// The text of a file without its mark of order; where it is none, the part before the first wrong byte.

@@ -6,6 +6,12 @@ use std::path::PathBuf;
 /// The name of the function where none is given.
 pub const THRESHOLD: &str = "threshold";
 
+/// What `--map` calls the alpha that is tested.
+pub(super) const ALPHA: &str = "alpha";
+
+/// The largest file that is read.
+pub const LARGEST_FILE: u64 = 4 << 20;
+
 /// What is asked of a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Options {

@@ -6,7 +6,8 @@ use core::ops::Range;
 
 /// A word or a sign of the text, outside of comments.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Token {
+pub struct Token {
+    /// Where it stands, in bytes.
     pub at: Range<usize>,
     /// Round brackets that are open here.
     pub parentheses: usize,

@@ -1,7 +1,6 @@
 //! What is read of a file before its parser: the files that it includes, the branches of an engine's conditions, the function that
 //! is meant, and its test of an alpha.
 
-use super::LARGEST_FILE;
 use super::alpha_test::{Dialect, File, rewritten};
 use super::conditions::{dead, left_out, needed};
 use super::directives::{Directive, directives, functions, in_directives};
@@ -9,7 +8,7 @@ use super::error::Fault;
 use super::includes::Includes;
 use super::items::{items, reached};
 use super::missing::put_in;
-use super::options::{Options, THRESHOLD};
+use super::options::{ALPHA, LARGEST_FILE, Options, THRESHOLD};
 use super::scan::{Token, tokens};
 use super::signature::absent;
 use super::sources::Sources;
@@ -22,6 +21,8 @@ pub(super) struct Unit {
     pub text: String,
     /// What is asked of it: the name of the function, and what has to be set so that it is read.
     pub asked: Options,
+    /// The name of the function in the file.
+    pub named: String,
     /// What was done, in sentences.
     pub notes: Vec<String>,
     /// Names of what holds the place of the fragment on the screen, whatever they sound like.
@@ -120,15 +121,16 @@ pub(super) fn unit(
     notes.extend(precision(&file, &asked));
     let Some(test) = rewritten(&file, &asked)? else {
         drop((words, lines, all));
-        return Ok(Unit { text, asked, notes, pixels });
+        let named = asked.function.clone();
+        return Ok(Unit { text, asked, named, notes, pixels });
     };
     define(Some(test.at), &lines, &mut asked, &mut notes);
     let blanked = blanked(&text, test.blank);
-    asked.function = test.function;
+    let named = core::mem::replace(&mut asked.function, test.function);
     // What has gone into the test needs no value any more.
     asked.map.remove(ALPHA);
     notes.push(test.note);
-    Ok(Unit { text: sources.exchange(&blanked, test.edits), asked, notes, pixels })
+    Ok(Unit { text: sources.exchange(&blanked, test.edits), asked, named, notes, pixels })
 }
 
 /// Blanks ranges of a text.
@@ -199,9 +201,6 @@ fn line_macros(text: &str, tokens: &[Token], lines: &[Directive<'_>]) -> Vec<Ran
     }
     found
 }
-
-/// What `--map` calls the alpha that is tested.
-pub(super) const ALPHA: &str = "alpha";
 
 /// Sets what has to be defined so that a place is read.
 fn define(at: Option<usize>, lines: &[Directive<'_>], asked: &mut Options, notes: &mut Vec<String>) {
