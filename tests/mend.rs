@@ -42,8 +42,7 @@ fn ports() -> Vec<Port> {
             let pair = text.split_once('=').map(|(name, value)| (name.to_owned(), value.to_owned()));
             pair.into_iter().collect()
         };
-        let options =
-            Options { function: row[1].to_owned(), map: pairs(row[4]), settings: pairs(row[5]) };
+        let options = Options { function: row[1].to_owned(), map: pairs(row[4]), settings: pairs(row[5]) };
         Some(Port {
             file: row[0].to_owned(),
             text: std::fs::read_to_string(folder().join(row[0])).expect("a port"),

@@ -71,7 +71,9 @@ pub fn run(args: &CheckArgs) -> Result<Ending, Failure> {
 /// The only subject, which has to be a file.
 fn only_file(args: &CheckArgs) -> Result<ShaderFile<'_>, Failure> {
     let [word] = args.subjects.as_slice() else {
-        return Err(Failure::Usage("--mend changes one shader file: name it, and no other subject".to_owned()));
+        return Err(Failure::Usage(
+            "--mend changes one shader file: name it, and no other subject".to_owned(),
+        ));
     };
     ShaderFile::of(word).ok_or_else(|| {
         Failure::Usage(format!("--mend changes the text of a shader file, and `{word}` is none"))
@@ -83,11 +85,15 @@ fn language(file: &ShaderFile<'_>) -> Result<Language, Failure> {
     let refused = |reason: &str| Err(Failure::Usage(format!("{}: {reason}", file.name())));
     match Language::of(Path::new(file.path)) {
         Some(language @ (Language::Glsl | Language::Wgsl)) => Ok(language),
-        Some(Language::SpirV) => refused("--mend changes a text, and SPIR-V has none: mend the GLSL or HLSL that it was made of"),
-        Some(Language::Hlsl) => refused("--mend reads GLSL and WGSL; HLSL is tried, and its slips are told, by `check` without it"),
-        Some(Language::Quoted) => {
-            refused("--mend reads files of GLSL and WGSL alone: copy the function out of the program into one")
+        Some(Language::SpirV) => {
+            refused("--mend changes a text, and SPIR-V has none: mend the GLSL or HLSL that it was made of")
         }
+        Some(Language::Hlsl) => refused(
+            "--mend reads GLSL and WGSL; HLSL is tried, and its slips are told, by `check` without it",
+        ),
+        Some(Language::Quoted) => refused(
+            "--mend reads files of GLSL and WGSL alone: copy the function out of the program into one",
+        ),
         None => refused("this is no file of a shader"),
     }
 }

@@ -199,7 +199,11 @@ impl Measure {
             if (value - wanted).abs() < CLOSE {
                 return Some(libm::exp2(between));
             }
-            if (value < wanted) == rises { (low, below) = (between, value) } else { (high, above) = (between, value) }
+            if (value < wanted) == rises {
+                (low, below) = (between, value)
+            } else {
+                (high, above) = (between, value)
+            }
         }
         let found = 0.5 * (low + high);
         ((at(found) - wanted).abs() < 1.0e-6).then(|| libm::exp2(found))

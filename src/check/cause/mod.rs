@@ -89,8 +89,11 @@ fn examined(subject: &Subject<'_>, among: Option<&[&str]>) -> Examination {
         .as_ref()
         .map_or_else(|| Measure::sound(subject.variant, subject.hash_scale), |measured| measured.measure);
     let is_interpolated = subject.join == Join::Interpolate && !subject.bare_hash;
-    let explained =
-        if is_interpolated { two_scale::explain(subject, size, &places, steps.as_ref(), among, rng) } else { None };
+    let explained = if is_interpolated {
+        two_scale::explain(subject, size, &places, steps.as_ref(), among, rng)
+    } else {
+        None
+    };
     // Of what is to be mended, nothing more is asked once it has another way.
     if among.is_some() && is_interpolated && explained.is_none() {
         return Examination { found: all, ..Examination::default() };

@@ -214,9 +214,8 @@ pub(super) fn explain(
     let scales = among;
     // Two hashes without a weight look like one hash with any correction.
     let among = among.filter(|names| !WEIGHTLESS.iter().any(|(slip, _)| names.contains(&slip.name)));
-    let is_sought = |slip: Option<Slip>| {
-        among.is_none_or(|names| slip.is_some_and(|slip| names.contains(&slip.name)))
-    };
+    let is_sought =
+        |slip: Option<Slip>| among.is_none_or(|names| slip.is_some_and(|slip| names.contains(&slip.name)));
     let undone: Vec<Option<Undone>> =
         CORRECTIONS.iter().map(|c| is_sought(c.slip).then(|| Undone::of(c.of, ALONE)).flatten()).collect();
     let mut sound = None;
@@ -229,11 +228,11 @@ pub(super) fn explain(
         let Some(seen) = see(subject, measure, places, rng) else { continue };
         let as_it_is = Law { slip: None, shown: String::new(), bend: Bend::Clamp([0.0, 1.0]) };
         let is_uniform = seen.laws.iter().any(|law| law.slip.is_none());
-        let is_tried = |slip: Option<Slip>| {
-            slip.is_none_or(|slip| among.is_none_or(|names| names.contains(&slip.name)))
-        };
+        let is_tried =
+            |slip: Option<Slip>| slip.is_none_or(|slip| among.is_none_or(|names| names.contains(&slip.name)));
         // What shows one cell alone is told by its law.
-        let is_among = |form: &&Form| among.is_none() || form.is_weightless || form.is_reversed || is_tried(form.slip);
+        let is_among =
+            |form: &&Form| among.is_none() || form.is_weightless || form.is_reversed || is_tried(form.slip);
         let bent = seen.laws.iter().filter(|law| law.slip.is_some() && is_tried(law.slip)).cloned();
         for law in core::iter::once(as_it_is).chain(bent) {
             for form in FORMS.iter().filter(|form| is_among(form)) {

@@ -3,7 +3,7 @@
 use super::change::{Change, Edit};
 use super::syntax::{Expr, Function, Kind, Role, Scalar, Statement, Syntax, Type};
 use crate::threshold::two_scale::Variant;
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// Functions that are taken for each other.
 const NAMESAKES: [&[&str]; 7] = [
@@ -20,13 +20,15 @@ const NAMESAKES: [&[&str]; 7] = [
 const OPERATORS: [&[&str]; 5] =
     [&["+", "-", "*", "/"], &["<", ">", "<=", ">="], &["&", "|", "^"], &["^", "+"], &["<<", ">>"]];
 
-/// Numbers of the listings and of hashes, as they are written.
+/// Numbers of the listings, as they are written.
 const FLOATS: [&str; 6] = ["0.0", "0.5", "1.0", "2.0", "0.707", "1.0e-6"];
 
 /// Those of hashes.
 const OF_HASHES: [&str; 5] = ["1.0e4", "16777216.0", "4294967296.0", "17.0", "13.0"];
 
+/// Whole numbers of octaves and cells.
 const INTS: [&str; 3] = ["0", "1", "2"];
+/// Those of shifts and masks.
 const UINTS: [&str; 5] = ["0u", "1u", "8u", "16u", "0xffffffffu"];
 
 /// Statements at the end of a function in which Eq. 2 may stand.
@@ -125,14 +127,17 @@ pub(super) fn changes(sheet: &Sheet<'_>) -> Vec<Change> {
     let reached = sheet.syntax.reached(sheet.function);
     let mut all = Changes { text: sheet.text, all: Vec::new(), seen: BTreeSet::new() };
     let is_wrong = |function: usize| {
-        let is_hash = sheet.syntax.is_hash(function) && sheet.syntax.functions[function].name != sheet.function;
+        let is_hash =
+            sheet.syntax.is_hash(function) && sheet.syntax.functions[function].name != sheet.function;
         reached.contains(&function) && (if is_hash { sheet.wrong.hash } else { true })
     };
     let is_reached = |statement: &&Statement| statement.function.is_none_or(is_wrong);
     let [scale, join] = sheet.topics();
     let is_topic = |statement: &&Statement| {
         let at = statement.at.start;
-        sheet.wrong.hash || statement.role == Role::Macro || statement.function.is_none()
+        sheet.wrong.hash
+            || statement.role == Role::Macro
+            || statement.function.is_none()
             || sheet.wrong.scale && scale.contains(&at)
             || sheet.wrong.join && join.contains(&at)
     };
@@ -152,6 +157,7 @@ pub(super) fn changes(sheet: &Sheet<'_>) -> Vec<Change> {
                 all.push(vec![edit(expr)]);
             }
         }
+        sheet.compared(statement, &scope, &mut all);
         if statement.role == Role::Assigns {
             all.push(vec![Edit { at: whole_lines(sheet.text, statement.at.clone()), with: String::new() }]);
         }
@@ -165,7 +171,8 @@ pub(super) fn with_listed_root(syntax: &Syntax, text: &str) -> Option<Change> {
     let numbers = syntax.statements.iter().flat_map(|statement| statement.value.all());
     let is_root = |expr: &&Expr| {
         let written = text[expr.at.clone()].trim_end_matches(['f', 'F']);
-        matches!(expr.kind, Kind::Number) && written.parse().is_ok_and(|x: f64| (0.7065..0.7075).contains(&x) && x != 0.707)
+        matches!(expr.kind, Kind::Number)
+            && written.parse().is_ok_and(|x: f64| (0.7065..0.7075).contains(&x) && x != 0.707)
     };
     let edit = |expr: &Expr| Edit { at: expr.at.clone(), with: "0.707".to_owned() };
     Change::new(text, numbers.filter(is_root).map(edit).collect())
@@ -198,7 +205,11 @@ impl Sheet<'_> {
             let own = self.syntax.statements.iter().filter(|statement| statement.function == Some(function));
             let own: Vec<&Statement> = own.collect();
             let is_log = |statement: &&Statement| {
-                statement.value.all().iter().any(|expr| matches!(&expr.kind, Kind::Call(name, ..) if name.starts_with("log")))
+                statement
+                    .value
+                    .all()
+                    .iter()
+                    .any(|expr| matches!(&expr.kind, Kind::Call(name, ..) if name.starts_with("log")))
             };
             let first = own.iter().position(is_log).unwrap_or(0);
             let last = own.iter().rposition(is_log).unwrap_or(own.len().saturating_sub(1));
@@ -242,7 +253,7 @@ impl Sheet<'_> {
         // Members of structures, as they are written elsewhere in the function.
         let of_function = self.syntax.statements.iter().filter(|other| other.function == statement.function);
         for expr in of_function.flat_map(|other| other.value.all()) {
-            if let (Kind::Member(base, _), Some(of)) = (&expr.kind, expr.of)
+            if let (Kind::Member(base), Some(of)) = (&expr.kind, expr.of)
                 && let Kind::Name(base) = &base.kind
                 && names.iter().any(|(name, of)| name == base && of.is_none())
             {
@@ -262,26 +273,36 @@ impl Sheet<'_> {
         let of_function = self.syntax.statements.iter().filter(|other| other.function == statement.function);
         let of_function: Vec<&Statement> = of_function.collect();
         let calls = |statement: &Statement, names: &[&str]| {
-            let is_one = |expr: &&Expr| matches!(&expr.kind, Kind::Call(name, ..) if names.contains(&name.as_str()));
+            let is_one =
+                |expr: &&Expr| matches!(&expr.kind, Kind::Call(name, ..) if names.contains(&name.as_str()));
             statement.value.all().iter().any(is_one)
         };
         let declares = |name: &str, calls: &dyn Fn(&Statement) -> bool| {
-            of_function.iter().any(|other| matches!(&other.role, Role::Declares(own) if own == name) && calls(other))
+            of_function
+                .iter()
+                .any(|other| matches!(&other.role, Role::Declares(own) if own == name) && calls(other))
         };
-        let is_log = |name: &str| declares(name, &|other| calls(other, &["log2", "log"]) && !calls(other, &["floor", "fract", "exp2", "ceil"]));
+        let is_log = |name: &str| {
+            declares(name, &|other| {
+                calls(other, &["log2", "log"]) && !calls(other, &["floor", "fract", "exp2", "ceil"])
+            })
+        };
         let of_logs = if self.variant == Variant::Anisotropic { Type::VEC3 } else { Type::FLOAT };
         let plain: Vec<String> =
             scope.of(of_logs).iter().filter(|name| !name.contains('.')).cloned().collect();
         scope.logs = plain.iter().filter(|name| is_log(name)).cloned().collect();
         if scope.logs.is_empty() {
             let parameters = statement.function.map(|function| &self.syntax.functions[function].parameters);
-            let is_parameter = |name: &String| parameters.is_some_and(|all| all.iter().any(|(other, _)| other == name));
+            let is_parameter =
+                |name: &String| parameters.is_some_and(|all| all.iter().any(|(other, _)| other == name));
             scope.logs = plain.into_iter().filter(|name| is_parameter(name)).collect();
         }
         let mut from_one = BTreeSet::new();
         for expr in of_function.iter().flat_map(|other| other.value.all()) {
             match &expr.kind {
-                Kind::Binary(operator, _, parts) if operator == "-" && matches!(parts[0].kind, Kind::Number) => {
+                Kind::Binary(operator, _, parts)
+                    if operator == "-" && matches!(parts[0].kind, Kind::Number) =>
+                {
                     from_one.insert(self.written(&parts[1]));
                 }
                 Kind::Call(name, _, parts) if name == "mix" && parts.len() == 3 => {
@@ -292,8 +313,14 @@ impl Sheet<'_> {
         }
         let is_fraction = |name: &str| {
             declares(name, &|other| {
-                let is_rest = other.value.all().iter().any(|expr| matches!(&expr.kind, Kind::Binary(sign, ..) if sign == "-"));
-                calls(other, &["fract", "min"]) || is_rest && calls(other, &["floor"]) || calls(other, &["length"])
+                let is_rest = other
+                    .value
+                    .all()
+                    .iter()
+                    .any(|expr| matches!(&expr.kind, Kind::Binary(sign, ..) if sign == "-"));
+                calls(other, &["fract", "min"])
+                    || is_rest && calls(other, &["floor"])
+                    || calls(other, &["length"])
             })
         };
         let [early, _] = self.topics();
@@ -311,7 +338,7 @@ impl Sheet<'_> {
             if is_weight {
                 scope.weights.push(number.clone());
             }
-            if !is_early && (!is_weight || !has_log) {
+            if !is_early && !is_fraction(&number) {
                 scope.values.push(number);
             }
         }
@@ -355,7 +382,7 @@ impl Sheet<'_> {
         };
         // One of its parts.
         for part in expr.all().into_iter().skip(1) {
-            let is_base = matches!(&expr.kind, Kind::Member(base, _) if base.at == part.at);
+            let is_base = matches!(&expr.kind, Kind::Member(base) if base.at == part.at);
             if is_base || part.of == expr.of || part.of.is_none() || expr.of.is_none() {
                 let written = self.written(part).to_owned();
                 all.push(if is_sum(part) { closed(written) } else { written });
@@ -365,7 +392,9 @@ impl Sheet<'_> {
             Kind::Call(name, at, parts) => {
                 let rest = &self.text[at.end..expr.at.end];
                 for names in NAMESAKES.iter().filter(|names| names.contains(&name.as_str())) {
-                    all.extend(names.iter().filter(|other| *other != name).map(|other| format!("{other}{rest}")));
+                    all.extend(
+                        names.iter().filter(|other| *other != name).map(|other| format!("{other}{rest}")),
+                    );
                 }
                 let is_symmetric = matches!(name.as_str(), "min" | "max" | "dot" | "cross");
                 for first in (0..parts.len()).filter(|_| !is_symmetric) {
@@ -375,7 +404,7 @@ impl Sheet<'_> {
                 }
                 if name.starts_with("dFd") || name.starts_with("dpd") || name == "fwidth" {
                     all.extend(parts.iter().filter_map(|part| match &part.kind {
-                        Kind::Member(base, _) => Some(format!("{}({})", name, self.written(base))),
+                        Kind::Member(base) => Some(format!("{}({})", name, self.written(base))),
                         _ => None,
                     }));
                 }
@@ -400,14 +429,15 @@ impl Sheet<'_> {
                     Some(Scalar::UInt) => &UINTS,
                     _ => &INTS,
                 };
-                let of_hashes: &[&str] = if self.wrong.hash && expr.of == Some(Type::FLOAT) { &OF_HASHES } else { &[] };
+                let of_hashes: &[&str] =
+                    if self.wrong.hash && expr.of == Some(Type::FLOAT) { &OF_HASHES } else { &[] };
                 all.extend(same.iter().chain(of_hashes).map(|number| (*number).to_owned()));
             }
             Kind::Name(_) | Kind::Member(..) | Kind::Index(..) | Kind::Parens(_) | Kind::Unary(_) => {}
         }
         let Some(of) = expr.of else { return all };
         let is_name = matches!(expr.kind, Kind::Name(_) | Kind::Member(..) | Kind::Index(..));
-        if is_name || is_free {
+        if is_name || is_free && !matches!(expr.kind, Kind::Number) {
             let is_cell = self.wrong.hash || of != Type::FLOAT;
             all.extend(if is_cell { scope.of(of).to_vec() } else { scope.numbers() });
             let none: &[&str] = match of {
@@ -422,10 +452,17 @@ impl Sheet<'_> {
         }
         if of.scalar == Scalar::Float {
             let inner = operand(expr);
-            if is_free {
+            if is_free && !matches!(expr.kind, Kind::Number) {
                 let calls = ["floor", "fract", "abs", "sqrt", "log2", "exp2"];
                 all.extend(calls.map(|call| format!("{call}({words})")));
-                let around = [("1.0 - ", ""), ("1.0 / ", ""), ("2.0 * ", ""), ("0.5 * ", ""), ("", " + 1.0"), ("-", "")];
+                let around = [
+                    ("1.0 - ", ""),
+                    ("1.0 / ", ""),
+                    ("2.0 * ", ""),
+                    ("0.5 * ", ""),
+                    ("", " + 1.0"),
+                    ("-", ""),
+                ];
                 all.extend(around.map(|(before, after)| format!("{before}{inner}{after}")));
                 if of.size > 1 {
                     all.push(format!("0.707 * {inner}"));
@@ -446,7 +483,10 @@ impl Sheet<'_> {
                     all.push(closed(format!("(1.0 - {left}) * (1.0 - {left})")));
                 }
                 if operator == "/" {
-                    let shifted = scope.numbers().into_iter().map(|a| closed(format!("({left} - 0.5 * {a}) / {right}")));
+                    let shifted = scope
+                        .numbers()
+                        .into_iter()
+                        .map(|a| closed(format!("({left} - 0.5 * {a}) / {right}")));
                     all.extend(shifted);
                 }
             }
@@ -478,14 +518,32 @@ impl Sheet<'_> {
         all
     }
 
+    /// Another name wherever a function compares one: the cases of Eq. 2 chosen by the wrong number.
+    fn compared(&self, statement: &Statement, scope: &Scope, all: &mut Changes<'_>) {
+        let of_function = self.syntax.statements.iter().filter(|other| other.function == statement.function);
+        let mut places: BTreeMap<&str, Vec<&Expr>> = BTreeMap::new();
+        for expr in of_function.flat_map(|other| other.value.all()) {
+            if let Kind::Binary(operator, _, parts) = &expr.kind
+                && operator.starts_with(['<', '>'])
+            {
+                let names = parts.iter().filter(|part| matches!(part.kind, Kind::Name(_) | Kind::Member(_)));
+                names.for_each(|name| places.entry(self.written(name)).or_default().push(name));
+            }
+        }
+        let is_first = |names: &Vec<&Expr>| statement.at.contains(&names[0].at.start);
+        for names in places.values().filter(|names| names.len() > 1 && is_first(names)) {
+            for other in scope.numbers() {
+                let edit = |name: &&Expr| Edit { at: name.at.clone(), with: other.clone() };
+                all.push(names.iter().map(edit).collect());
+            }
+        }
+    }
+
     /// An expression with two of its parts in each other's place.
     fn exchanged(&self, expr: &Expr, first: &Expr, second: &Expr) -> String {
-        let [before, between, after] = [
-            expr.at.start..first.at.start,
-            first.at.end..second.at.start,
-            second.at.end..expr.at.end,
-        ]
-        .map(|at| &self.text[at]);
+        let [before, between, after] =
+            [expr.at.start..first.at.start, first.at.end..second.at.start, second.at.end..expr.at.end]
+                .map(|at| &self.text[at]);
         let closed = |part: &Expr| {
             let is_whole = matches!(expr.kind, Kind::Call(..) | Kind::Choice(_));
             let is_sum = matches!(part.kind, Kind::Binary(..) | Kind::Choice(_));
@@ -514,7 +572,15 @@ impl Sheet<'_> {
                 }
             }
             for l in &scope.logs {
-                for text in ["exp2(floor(#))", "exp2(ceil(#))", "floor(#)", "ceil(#)", "floor(#) + 1.0", "# - floor(#)", "fract(#)"] {
+                for text in [
+                    "exp2(floor(#))",
+                    "exp2(ceil(#))",
+                    "floor(#)",
+                    "ceil(#)",
+                    "floor(#) + 1.0",
+                    "# - floor(#)",
+                    "fract(#)",
+                ] {
                     push(text.replace('#', l));
                 }
             }
@@ -543,8 +609,11 @@ impl Sheet<'_> {
                 _ => None,
             };
             let is_value = |part: &&Expr| {
-                let is_one = matches!(part.kind, Kind::Name(_) | Kind::Member(..) | Kind::Call(..) | Kind::Index(..));
-                part.of == Some(Type::FLOAT) && is_one && !scope.weights.iter().any(|w| w == self.written(part))
+                let is_one =
+                    matches!(part.kind, Kind::Name(_) | Kind::Member(..) | Kind::Call(..) | Kind::Index(..));
+                part.of == Some(Type::FLOAT)
+                    && is_one
+                    && !scope.weights.iter().any(|w| w == self.written(part))
             };
             let Some(pair) = pair.filter(|pair| pair.iter().all(is_value)) else { continue };
             let [a, b] = pair.map(|part| self.written(part));
@@ -566,7 +635,9 @@ impl Sheet<'_> {
 
     /// Changes of whole statements: Eq. 2, the last clamp, and hashes.
     fn lines(&self, statement: &Statement, scope: &Scope, all: &mut Changes<'_>) {
-        let Some(function) = statement.function.map(|function| &self.syntax.functions[function]) else { return };
+        let Some(function) = statement.function.map(|function| &self.syntax.functions[function]) else {
+            return;
+        };
         if statement.of != Some(Type::FLOAT) || statement.role == Role::Macro {
             return;
         }
@@ -575,7 +646,9 @@ impl Sheet<'_> {
         let is_main = function.name == self.function;
         // The places of Eq. 2: a value, or what is clamped, at the end of a function.
         let behind = self.syntax.statements.iter().filter(|other| {
-            other.function == statement.function && other.of == Some(Type::FLOAT) && other.at.start > statement.at.start
+            other.function == statement.function
+                && other.of == Some(Type::FLOAT)
+                && other.at.start > statement.at.start
         });
         let is_last = behind.count() < LAST;
         let clamped = match &value.kind {
@@ -590,7 +663,9 @@ impl Sheet<'_> {
             }
         }
         let fresh = |wish: &str| {
-            let is_known = |name: &str| self.text.split(|c: char| !(c.is_ascii_alphanumeric() || c == '_')).any(|word| word == name);
+            let is_known = |name: &str| {
+                self.text.split(|c: char| !(c.is_ascii_alphanumeric() || c == '_')).any(|word| word == name)
+            };
             let mut name = wish.to_owned();
             while is_known(&name) {
                 name += "_of";
@@ -598,7 +673,11 @@ impl Sheet<'_> {
             name
         };
         let declared = |name: &str, value: &str| {
-            if self.syntax.is_wgsl { format!("let {name} = {value};") } else { format!("float {name} = {value};") }
+            if self.syntax.is_wgsl {
+                format!("let {name} = {value};")
+            } else {
+                format!("float {name} = {value};")
+            }
         };
         let line = self.text[..statement.at.start].rfind('\n').map_or(0, |newline| newline + 1);
         let indent = &self.text[line..statement.at.start];
@@ -614,7 +693,10 @@ impl Sheet<'_> {
                     let minor = declared(&a_name, &format!("min({w}, 1.0 - {w})"));
                     for x in scope.values.iter().filter(|x| *x != w) {
                         all.push(vec![
-                            Edit { at: statement.at.start..statement.at.start, with: format!("{minor}\n{indent}") },
+                            Edit {
+                                at: statement.at.start..statement.at.start,
+                                with: format!("{minor}\n{indent}"),
+                            },
                             Edit { at: place.at.clone(), with: self.cases(x, &a_name) },
                         ]);
                     }
@@ -662,7 +744,10 @@ impl Sheet<'_> {
                 match kinds[..] {
                     [of] if of.starts_with("vec2") => {
                         all.push(one(value, format!("{name}({0}({name}({c}.xy), {c}.z))", cast[0])));
-                        all.push(one(value, format!("{name}({0}({name}(floor({c}.xy)), floor({c}.z)))", cast[0])));
+                        all.push(one(
+                            value,
+                            format!("{name}({0}({name}(floor({c}.xy)), floor({c}.z)))", cast[0]),
+                        ));
                     }
                     [of] if of.starts_with("vec3") => {
                         all.push(one(value, format!("{name}(floor({c}))")));

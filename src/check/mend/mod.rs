@@ -15,14 +15,14 @@ use super::results::Results;
 use super::shaders;
 use super::{Budget, Claim, Draw, Subject, Suite, run_claims};
 use crate::scene::Fragment;
-use crate::stats::seed;
-use crate::threshold::footprint::Footprint;
-use glam::{DVec2, DVec3};
 use crate::shader::interpreter::DeviceModel;
 use crate::shader::own::{self, Language, Options, OwnShader};
+use crate::stats::seed;
+use crate::threshold::footprint::Footprint;
 use crate::threshold::two_scale::Variant;
 use change::{Change, lines_between};
 use edits::{Sheet, Steps};
+use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use std::collections::HashSet;
 use syntax::Syntax;
@@ -47,6 +47,9 @@ const ALIKE: usize = 2;
 
 /// Texts without a slip on which the claims are tried.
 const TRIED: usize = 6;
+
+/// As many texts against which the same claims speak end the trials.
+const AGAIN: usize = 3;
 
 /// Ways of putting the paper's hash into a text that are tried.
 const HASHES: usize = 3;
@@ -195,7 +198,8 @@ impl Broken<'_> {
     fn sheet<'s>(&'s self, text: &'s str, syntax: &'s Syntax, wrong: Steps) -> Option<Sheet<'s>> {
         let shader = self.shader(text)?;
         let named = |value: &str| {
-            let taken = shader.taken.iter().find(|taken| taken.meaning == value).map(|taken| taken.name.clone());
+            let taken =
+                shader.taken.iter().find(|taken| taken.meaning == value).map(|taken| taken.name.clone());
             let name = self.options.map.get(value).cloned().or(taken).unwrap_or_else(|| value.to_owned());
             syntax.has(&self.options.function, &name).then_some(name)
         };
@@ -237,21 +241,70 @@ fn places() -> Vec<Fragment> {
 
 /// Slips on the way to a scale.
 const OF_SCALE: [&str; 20] = [
-    "dfdx-twice", "min-for-max", "fwidth", "length-of-sum", "sum-of-lengths", "area-of-a-pixel", "largest-component",
-    "derivative-without-z", "hash-scale-ignored", "hash-scale-divides", "squared-length", "one-plus-derivative",
-    "missing-sqrt-half", "noise-of-another-size", "half-the-noise", "inverse-scale", "natural-logarithm", "axes-exchanged",
-    "other-variant", "no-octaves",
+    "dfdx-twice",
+    "min-for-max",
+    "fwidth",
+    "length-of-sum",
+    "sum-of-lengths",
+    "area-of-a-pixel",
+    "largest-component",
+    "derivative-without-z",
+    "hash-scale-ignored",
+    "hash-scale-divides",
+    "squared-length",
+    "one-plus-derivative",
+    "missing-sqrt-half",
+    "noise-of-another-size",
+    "half-the-noise",
+    "inverse-scale",
+    "natural-logarithm",
+    "axes-exchanged",
+    "other-variant",
+    "no-octaves",
 ];
 
 /// Slips of the join and behind it.
 const OF_JOIN: [&str; 40] = [
-    "coarser-for-finer", "octave-skipped", "one-octave-for-both", "coarse-octave-alone", "nearest-octave", "octave-rounded",
-    "linear-weight", "weight-of-the-scale", "smoothstep-weight", "second-hash-from-the-first", "weights-that-add-up-to-more",
-    "geometric-mean", "weights-swapped", "weight-always-half", "no-cdf", "case-by-lerp-factor", "divisor-without-two",
-    "a-without-min", "first-cases-swapped", "last-case-missing", "middle-case-unshifted", "last-case-unmirrored",
-    "cdf-of-equal-weights", "inverse-for-cdf", "density-for-cdf", "smoothstep-for-cdf", "cdf-twice", "larger-of-two",
-    "product-of-two", "mean-of-two", "sum-that-wraps", "clamped-at-zero", "coarse-steps", "half-precision", "gamma-curve",
-    "srgb-curve", "around-a-cutoff", "safe-middle", "clamped-by-255ths", "clamped-below-opaque",
+    "coarser-for-finer",
+    "octave-skipped",
+    "one-octave-for-both",
+    "coarse-octave-alone",
+    "nearest-octave",
+    "octave-rounded",
+    "linear-weight",
+    "weight-of-the-scale",
+    "smoothstep-weight",
+    "second-hash-from-the-first",
+    "weights-that-add-up-to-more",
+    "geometric-mean",
+    "weights-swapped",
+    "weight-always-half",
+    "no-cdf",
+    "case-by-lerp-factor",
+    "divisor-without-two",
+    "a-without-min",
+    "first-cases-swapped",
+    "last-case-missing",
+    "middle-case-unshifted",
+    "last-case-unmirrored",
+    "cdf-of-equal-weights",
+    "inverse-for-cdf",
+    "density-for-cdf",
+    "smoothstep-for-cdf",
+    "cdf-twice",
+    "larger-of-two",
+    "product-of-two",
+    "mean-of-two",
+    "sum-that-wraps",
+    "clamped-at-zero",
+    "coarse-steps",
+    "half-precision",
+    "gamma-curve",
+    "srgb-curve",
+    "around-a-cutoff",
+    "safe-middle",
+    "clamped-by-255ths",
+    "clamped-below-opaque",
 ];
 
 /// The steps in which something is wrong: all but the hash where that is not known.
@@ -366,23 +419,32 @@ impl Search<'_> {
         if !examined.found.is_empty() || !examined.follows || self.tries == 0 {
             return None;
         }
-        self.tries -= 1;
         // Another root moves all cells a little, and one claim is enough to see it.
-        let listed = edits::with_listed_root(&self.broken.syntax(&text), &text).map(|change| change.applied(&text));
+        let listed =
+            edits::with_listed_root(&self.broken.syntax(&text), &text).map(|change| change.applied(&text));
         let text = match listed {
             Some(listed) if !self.against(&text, &[claims::exact::CELLS])?.is_empty() => listed,
             Some(_) | None => text,
         };
+        // A clamp in the wrong place is cheap to see.
+        if !self.broken.claims.is_empty() && !self.against(&text, &[claims::range::RANGE])?.is_empty() {
+            return None;
+        }
+        self.tries -= 1;
         let against = self.against(&text, self.broken.claims)?;
         if against.is_empty() {
             return Some(text);
         }
-        // What another change of the same text does not help.
-        if self.failed.contains(&against) {
-            self.tries = 0;
-            return None;
-        }
+        // What other changes of the same text do not help.
         self.failed.push(against.clone());
+        match self.failed.iter().filter(|other| **other == against).count() {
+            1 => {}
+            AGAIN.. => {
+                self.tries = 0;
+                return None;
+            }
+            _ => return None,
+        }
         if !against.iter().any(|claim| OF_HASHES.iter().any(|family| claim.starts_with(family))) {
             return None;
         }

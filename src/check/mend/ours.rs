@@ -21,8 +21,11 @@ pub(super) fn replaced(sheet: &Sheet<'_>) -> Option<String> {
     let hash_scale = if sheet.hash_scale.is_some() { HashScale::Parameter } else { HashScale::Written };
     let pipeline = Pipeline::listing(sheet.variant);
     let language = if syntax.is_wgsl { Language::Wgsl } else { Language::Glsl };
-    let Exported::Text(ours) = export(ShaderOptions { pipeline, hash_scale }, language).ok()? else { return None };
-    let ours: String = ours.lines().filter(|line| !line.starts_with("#version")).map(|line| format!("{line}\n")).collect();
+    let Exported::Text(ours) = export(ShaderOptions { pipeline, hash_scale }, language).ok()? else {
+        return None;
+    };
+    let ours: String =
+        ours.lines().filter(|line| !line.starts_with("#version")).map(|line| format!("{line}\n")).collect();
     let ours = ours.replace("threshold(", &format!("{NAME}("));
     // Names of types and functions stand in front of a bracket.
     let taken: BTreeSet<&str> = words(text).collect();
@@ -36,5 +39,8 @@ pub(super) fn replaced(sheet: &Sheet<'_>) -> Option<String> {
     given.extend(sheet.hash_scale.clone());
     let line = text[..head.start].rfind('\n').map_or(0, |newline| newline + 1);
     let body = format!("{{\n    return {NAME}({});\n}}", given.join(", "));
-    Some([&text[..line], ours.trim_end(), "\n\n", &text[line..head.end.start], &body, &text[head.end.end..]].concat())
+    Some(
+        [&text[..line], ours.trim_end(), "\n\n", &text[line..head.end.start], &body, &text[head.end.end..]]
+            .concat(),
+    )
 }

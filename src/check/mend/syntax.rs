@@ -69,7 +69,7 @@ pub(super) enum Kind {
     Name(String),
     /// The name of what is called, or of the type that is made.
     Call(String, Range<usize>, Vec<Expr>),
-    Member(Box<Expr>, Range<usize>),
+    Member(Box<Expr>),
     Index(Box<Expr>, Box<Expr>),
     Parens(Box<Expr>),
     Unary(Box<Expr>),
@@ -84,7 +84,7 @@ impl Expr {
         match &self.kind {
             Kind::Number | Kind::Name(_) => Vec::new(),
             Kind::Call(_, _, parts) => parts.iter().collect(),
-            Kind::Member(part, _) | Kind::Parens(part) | Kind::Unary(part) => vec![part],
+            Kind::Member(part) | Kind::Parens(part) | Kind::Unary(part) => vec![part],
             Kind::Index(base, index) => vec![base, index],
             Kind::Binary(_, _, parts) => parts.iter().collect(),
             Kind::Choice(parts) => parts.iter().collect(),
@@ -179,7 +179,8 @@ struct Reader<'t> {
 
 /// Signs of several characters.
 const LONG: [&str; 19] = [
-    "<<=", ">>=", "<=", ">=", "==", "!=", "&&", "||", "<<", ">>", "+=", "-=", "*=", "/=", "|=", "&=", "^=", "++", "->",
+    "<<=", ">>=", "<=", ">=", "==", "!=", "&&", "||", "<<", ">>", "+=", "-=", "*=", "/=", "|=", "&=", "^=",
+    "++", "->",
 ];
 
 /// Puts numbers and signs together that the scan has cut.
@@ -199,7 +200,8 @@ fn glued(text: &str, tokens: &[Token]) -> (Vec<Range<usize>>, Vec<Option<usize>>
             (end, next) = (digits.at.end, next + 1);
         }
         let word = &text[start..end];
-        let is_number = word.starts_with(|c: char| c.is_ascii_digit()) || word.len() > 1 && word.starts_with('.');
+        let is_number =
+            word.starts_with(|c: char| c.is_ascii_digit()) || word.len() > 1 && word.starts_with('.');
         if is_number && !word.starts_with("0x") && word.ends_with(['e', 'E']) {
             for _ in 0..2 {
                 if let Some(more) = adjacent(next, end) {
@@ -283,9 +285,15 @@ impl Syntax {
     /// Where a function begins, and its body with its brackets.
     pub fn head(&self, function: &str, text: &str) -> Option<Head> {
         let tokens = own::words(text);
-        let name = tokens.iter().filter_map(|token| token.function).find(|&name| &text[tokens[name].at.clone()] == function)?;
+        let name = tokens
+            .iter()
+            .filter_map(|token| token.function)
+            .find(|&name| &text[tokens[name].at.clone()] == function)?;
         let before = if self.is_wgsl { "fn" } else { "" };
-        let start = tokens[..name].iter().rev().find(|token| before.is_empty() || &text[token.at.clone()] == before)?;
+        let start = tokens[..name]
+            .iter()
+            .rev()
+            .find(|token| before.is_empty() || &text[token.at.clone()] == before)?;
         let open = tokens[name..].iter().position(|token| &text[token.at.clone()] == "{")? + name;
         let mut depth = 0;
         let close = tokens[open..].iter().find(|token| {
@@ -373,7 +381,8 @@ impl Reader<'_> {
                     let words: Vec<usize> =
                         words.into_iter().filter(|&word| !matches!(self.word(word), "@")).collect();
                     if let Some(colon) = words.iter().position(|&word| self.word(word) == ":")
-                        && let (Some(&name), Some(&of)) = (words.get(colon.wrapping_sub(1)), words.get(colon + 1))
+                        && let (Some(&name), Some(&of)) =
+                            (words.get(colon.wrapping_sub(1)), words.get(colon + 1))
                     {
                         parameters.push((self.word(name).to_owned(), self.type_at(of).0));
                     }
@@ -419,7 +428,8 @@ impl Reader<'_> {
         let mut end = index + 1;
         while end < self.end {
             let between = &self.text[self.tokens[end - 1].end..self.tokens[end].start];
-            let continued = between.trim_start_matches([' ', '\t']).starts_with('\\') || self.word(end - 1) == "\\";
+            let continued =
+                between.trim_start_matches([' ', '\t']).starts_with('\\') || self.word(end - 1) == "\\";
             if between.contains('\n') && !continued {
                 break;
             }
@@ -459,7 +469,10 @@ impl Reader<'_> {
         let start = self.at;
         self.inside = self.function[start].and_then(|name| {
             let at = self.tokens.iter().position(|at| at.start == name)?;
-            self.syntax.functions.iter().position(|function| function.name == self.text[self.tokens[at].clone()])
+            self.syntax
+                .functions
+                .iter()
+                .position(|function| function.name == self.text[self.tokens[at].clone()])
         });
         match self.now() {
             "{" | "}" | ";" | "else" | "do" => self.at += 1,
@@ -548,7 +561,18 @@ impl Reader<'_> {
 
     fn declares_or_assigns(&mut self, start: usize) {
         const MARKS: [&str; 12] = [
-            "const", "uniform", "in", "out", "inout", "varying", "attribute", "flat", "smooth", "highp", "mediump", "lowp",
+            "const",
+            "uniform",
+            "in",
+            "out",
+            "inout",
+            "varying",
+            "attribute",
+            "flat",
+            "smooth",
+            "highp",
+            "mediump",
+            "lowp",
         ];
         while MARKS.contains(&self.now()) {
             self.at += 1;
@@ -677,7 +701,7 @@ impl Reader<'_> {
                     Some(of) if is_swizzle => Some(Type { size: field.len() as u8, ..of }),
                     _ => self.syntax.fields.get(&field).copied().flatten(),
                 };
-                base = Expr { at: base.at.start..at.end, kind: Kind::Member(Box::new(base), at), of };
+                base = Expr { at: base.at.start..at.end, kind: Kind::Member(Box::new(base)), of };
             } else if self.takes("[") {
                 let index = self.expression()?;
                 let end = self.tokens.get(self.at)?.end;
@@ -685,7 +709,8 @@ impl Reader<'_> {
                     return None;
                 }
                 let of = base.of.map(Type::element);
-                base = Expr { at: base.at.start..end, of, kind: Kind::Index(Box::new(base), Box::new(index)) };
+                base =
+                    Expr { at: base.at.start..end, of, kind: Kind::Index(Box::new(base), Box::new(index)) };
             } else {
                 return Some(base);
             }
