@@ -3,7 +3,7 @@
 use super::change::{Change, Edit};
 use super::syntax::{Expr, Function, Kind, Role, Scalar, Statement, Syntax, Type};
 use crate::threshold::two_scale::Variant;
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// Functions that are taken for each other.
 const NAMESAKES: [&[&str]; 7] = [
@@ -20,13 +20,15 @@ const NAMESAKES: [&[&str]; 7] = [
 const OPERATORS: [&[&str]; 5] =
     [&["+", "-", "*", "/"], &["<", ">", "<=", ">="], &["&", "|", "^"], &["^", "+"], &["<<", ">>"]];
 
-/// Numbers of the listings and of hashes, as they are written.
+/// Numbers of the listings, as they are written.
 const FLOATS: [&str; 6] = ["0.0", "0.5", "1.0", "2.0", "0.707", "1.0e-6"];
 
 /// Those of hashes.
 const OF_HASHES: [&str; 5] = ["1.0e4", "16777216.0", "4294967296.0", "17.0", "13.0"];
 
+/// Whole numbers of octaves and cells.
 const INTS: [&str; 3] = ["0", "1", "2"];
+/// Those of shifts and masks.
 const UINTS: [&str; 5] = ["0u", "1u", "8u", "16u", "0xffffffffu"];
 
 /// Statements at the end of a function in which Eq. 2 may stand.
@@ -155,6 +157,7 @@ pub(super) fn changes(sheet: &Sheet<'_>) -> Vec<Change> {
                 all.push(vec![edit(expr)]);
             }
         }
+        sheet.compared(statement, &scope, &mut all);
         if statement.role == Role::Assigns {
             all.push(vec![Edit { at: whole_lines(sheet.text, statement.at.clone()), with: String::new() }]);
         }
@@ -250,7 +253,7 @@ impl Sheet<'_> {
         // Members of structures, as they are written elsewhere in the function.
         let of_function = self.syntax.statements.iter().filter(|other| other.function == statement.function);
         for expr in of_function.flat_map(|other| other.value.all()) {
-            if let (Kind::Member(base, _), Some(of)) = (&expr.kind, expr.of)
+            if let (Kind::Member(base), Some(of)) = (&expr.kind, expr.of)
                 && let Kind::Name(base) = &base.kind
                 && names.iter().any(|(name, of)| name == base && of.is_none())
             {
@@ -335,7 +338,7 @@ impl Sheet<'_> {
             if is_weight {
                 scope.weights.push(number.clone());
             }
-            if !is_early && (!is_weight || !has_log) {
+            if !is_early && !is_fraction(&number) {
                 scope.values.push(number);
             }
         }
@@ -379,7 +382,7 @@ impl Sheet<'_> {
         };
         // One of its parts.
         for part in expr.all().into_iter().skip(1) {
-            let is_base = matches!(&expr.kind, Kind::Member(base, _) if base.at == part.at);
+            let is_base = matches!(&expr.kind, Kind::Member(base) if base.at == part.at);
             if is_base || part.of == expr.of || part.of.is_none() || expr.of.is_none() {
                 let written = self.written(part).to_owned();
                 all.push(if is_sum(part) { closed(written) } else { written });
@@ -401,7 +404,7 @@ impl Sheet<'_> {
                 }
                 if name.starts_with("dFd") || name.starts_with("dpd") || name == "fwidth" {
                     all.extend(parts.iter().filter_map(|part| match &part.kind {
-                        Kind::Member(base, _) => Some(format!("{}({})", name, self.written(base))),
+                        Kind::Member(base) => Some(format!("{}({})", name, self.written(base))),
                         _ => None,
                     }));
                 }
@@ -434,7 +437,7 @@ impl Sheet<'_> {
         }
         let Some(of) = expr.of else { return all };
         let is_name = matches!(expr.kind, Kind::Name(_) | Kind::Member(..) | Kind::Index(..));
-        if is_name || is_free {
+        if is_name || is_free && !matches!(expr.kind, Kind::Number) {
             let is_cell = self.wrong.hash || of != Type::FLOAT;
             all.extend(if is_cell { scope.of(of).to_vec() } else { scope.numbers() });
             let none: &[&str] = match of {
@@ -449,7 +452,7 @@ impl Sheet<'_> {
         }
         if of.scalar == Scalar::Float {
             let inner = operand(expr);
-            if is_free {
+            if is_free && !matches!(expr.kind, Kind::Number) {
                 let calls = ["floor", "fract", "abs", "sqrt", "log2", "exp2"];
                 all.extend(calls.map(|call| format!("{call}({words})")));
                 let around = [
@@ -513,6 +516,27 @@ impl Sheet<'_> {
             }
         }
         all
+    }
+
+    /// Another name wherever a function compares one: the cases of Eq. 2 chosen by the wrong number.
+    fn compared(&self, statement: &Statement, scope: &Scope, all: &mut Changes<'_>) {
+        let of_function = self.syntax.statements.iter().filter(|other| other.function == statement.function);
+        let mut places: BTreeMap<&str, Vec<&Expr>> = BTreeMap::new();
+        for expr in of_function.flat_map(|other| other.value.all()) {
+            if let Kind::Binary(operator, _, parts) = &expr.kind
+                && operator.starts_with(['<', '>'])
+            {
+                let names = parts.iter().filter(|part| matches!(part.kind, Kind::Name(_) | Kind::Member(_)));
+                names.for_each(|name| places.entry(self.written(name)).or_default().push(name));
+            }
+        }
+        let is_first = |names: &Vec<&Expr>| statement.at.contains(&names[0].at.start);
+        for names in places.values().filter(|names| names.len() > 1 && is_first(names)) {
+            for other in scope.numbers() {
+                let edit = |name: &&Expr| Edit { at: name.at.clone(), with: other.clone() };
+                all.push(names.iter().map(edit).collect());
+            }
+        }
     }
 
     /// An expression with two of its parts in each other's place.

@@ -48,6 +48,9 @@ const ALIKE: usize = 2;
 /// Texts without a slip on which the claims are tried.
 const TRIED: usize = 6;
 
+/// As many texts against which the same claims speak end the trials.
+const AGAIN: usize = 3;
+
 /// Ways of putting the paper's hash into a text that are tried.
 const HASHES: usize = 3;
 
@@ -390,14 +393,14 @@ impl Search<'_> {
                     if let Some(text) = self.passing(seen.text) {
                         return Ok(text);
                     }
-                } else if !found.is_empty() {
-                    if let Some(rank) = self.rank(&seen, open) {
-                        if rank == 0 {
-                            nearer_after.get_or_insert(count);
-                            ways.insert(names(&seen));
-                        }
-                        better.push(Seen { rank, ..seen });
+                } else if !found.is_empty()
+                    && let Some(rank) = self.rank(&seen, open)
+                {
+                    if rank == 0 {
+                        nearer_after.get_or_insert(count);
+                        ways.insert(names(&seen));
                     }
+                    better.push(Seen { rank, ..seen });
                 }
             }
             // Each slip may be the one that goes first.
@@ -416,7 +419,6 @@ impl Search<'_> {
         if !examined.found.is_empty() || !examined.follows || self.tries == 0 {
             return None;
         }
-        self.tries -= 1;
         // Another root moves all cells a little, and one claim is enough to see it.
         let listed =
             edits::with_listed_root(&self.broken.syntax(&text), &text).map(|change| change.applied(&text));
@@ -424,16 +426,25 @@ impl Search<'_> {
             Some(listed) if !self.against(&text, &[claims::exact::CELLS])?.is_empty() => listed,
             Some(_) | None => text,
         };
+        // A clamp in the wrong place is cheap to see.
+        if !self.broken.claims.is_empty() && !self.against(&text, &[claims::range::RANGE])?.is_empty() {
+            return None;
+        }
+        self.tries -= 1;
         let against = self.against(&text, self.broken.claims)?;
         if against.is_empty() {
             return Some(text);
         }
-        // What another change of the same text does not help.
-        if self.failed.contains(&against) {
-            self.tries = 0;
-            return None;
-        }
+        // What other changes of the same text do not help.
         self.failed.push(against.clone());
+        match self.failed.iter().filter(|other| **other == against).count() {
+            1 => {}
+            AGAIN.. => {
+                self.tries = 0;
+                return None;
+            }
+            _ => return None,
+        }
         if !against.iter().any(|claim| OF_HASHES.iter().any(|family| claim.starts_with(family))) {
             return None;
         }

@@ -69,7 +69,7 @@ pub(super) enum Kind {
     Name(String),
     /// The name of what is called, or of the type that is made.
     Call(String, Range<usize>, Vec<Expr>),
-    Member(Box<Expr>, Range<usize>),
+    Member(Box<Expr>),
     Index(Box<Expr>, Box<Expr>),
     Parens(Box<Expr>),
     Unary(Box<Expr>),
@@ -84,7 +84,7 @@ impl Expr {
         match &self.kind {
             Kind::Number | Kind::Name(_) => Vec::new(),
             Kind::Call(_, _, parts) => parts.iter().collect(),
-            Kind::Member(part, _) | Kind::Parens(part) | Kind::Unary(part) => vec![part],
+            Kind::Member(part) | Kind::Parens(part) | Kind::Unary(part) => vec![part],
             Kind::Index(base, index) => vec![base, index],
             Kind::Binary(_, _, parts) => parts.iter().collect(),
             Kind::Choice(parts) => parts.iter().collect(),
@@ -701,7 +701,7 @@ impl Reader<'_> {
                     Some(of) if is_swizzle => Some(Type { size: field.len() as u8, ..of }),
                     _ => self.syntax.fields.get(&field).copied().flatten(),
                 };
-                base = Expr { at: base.at.start..at.end, kind: Kind::Member(Box::new(base), at), of };
+                base = Expr { at: base.at.start..at.end, kind: Kind::Member(Box::new(base)), of };
             } else if self.takes("[") {
                 let index = self.expression()?;
                 let end = self.tokens.get(self.at)?.end;
