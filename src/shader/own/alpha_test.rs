@@ -659,7 +659,8 @@ impl Test<'_> {
         let braces = blocks
             .filter(|statement| matches!(statement.kind, Kind::Block(_)))
             .map(|statement| statement.at.clone());
-        for block in braces.chain([0..body.at.len()]) {
+        let whole = 0..body.at.len();
+        for block in braces.chain(core::iter::once(whole)) {
             stays[block.start] = true;
             stays[block.end - 1] = true;
         }

@@ -140,7 +140,9 @@ pub(super) fn left_out(
                 last.is_read = !last.was_read && holds;
                 last.was_read |= last.is_read;
             }
-            "endif" => drop(open.pop().ok_or_else(|| without(directive))?),
+            "endif" => {
+                open.pop().ok_or_else(|| without(directive))?;
+            }
             _ => {}
         }
     }

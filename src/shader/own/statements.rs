@@ -217,11 +217,11 @@ fn writers<'t>(text: &'t str, tokens: &[Token]) -> BTreeSet<&'t str> {
     let word = |at: usize| &text[tokens[at].at.clone()];
     let mut last = None;
     let mut found = BTreeSet::new();
-    for at in 0..tokens.len() {
-        if tokens[at].parentheses == 1 && word(at) == "(" && at > 0 {
+    for (at, token) in tokens.iter().enumerate() {
+        if token.parentheses == 1 && word(at) == "(" && at > 0 {
             last = Some(word(at - 1));
         }
-        if matches!(word(at), "inout" | "out" | "ptr") && tokens[at].parentheses > 0 {
+        if matches!(word(at), "inout" | "out" | "ptr") && token.parentheses > 0 {
             found.extend(last);
         }
     }
