@@ -548,7 +548,11 @@ fn threshold() -> f32 { return 0.5; }";
 
 #[test]
 fn check_finds_mistakes_before_it_starts() {
-    assert_fails(&run(&["check", "papers"], ""), "", "unknown subject `papers`; known are paper:isotropic, ");
+    assert_fails(
+        &run(&["check", "papers"], ""),
+        "",
+        "unknown subject `papers`. Did you mean `paper`? Known are paper:isotropic, ",
+    );
     let folder = tempfile::tempdir().unwrap();
     let list = folder.path().join("known.toml");
     let list = list.to_str().unwrap();
@@ -584,7 +588,10 @@ fn a_shader_file_is_put_on_trial() {
     }
     for (text, message) in [
         ("fn threshold(position: vec3<f32>) -> f32 {\n  return foo(position);\n}", "mine.wgsl:2:10: "),
-        ("fn threshold(q: vec3<f32>) -> f32 { return q.x; }", "mine.wgsl:1:1: parameter `q` "),
+        (
+            "fn threshold(q: vec3<f32>, r: vec3<f32>) -> f32 { return q.x + r.x; }",
+            "mine.wgsl:1:1: parameter `q` ",
+        ),
         ("fn threshold() -> f32 {\n  loop {}\n  return 1.0;\n}", "mine.wgsl"),
         ("", "the file is empty"),
     ] {
@@ -636,7 +643,7 @@ fn each_file_has_its_function_and_its_values() {
         (vec![files[1], "--set", &value], "first.glsl is none of the files of this run"),
         (
             vec![&*format!("{second}#d")],
-            "there is no function `d`; --function NAME takes one of another name; functions are b, c",
+            "there is no function `d`. Did you mean `b`? --function NAME takes one of another name; functions are b, c",
         ),
     ] {
         let (code, _, error) = check(&more);
@@ -868,7 +875,7 @@ fn a_shader_file_may_tell_its_size_of_noise_and_its_phase() {
     assert_eq!(output.status.code(), Some(1));
     let output = check(&["--hash-scale", "0.25"]);
     let said = String::from_utf8(output.stdout).unwrap().split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(said.contains("without --literal, say --nested-phase"), "{said}");
+    assert!(said.contains("that is sound where it is declared: say --nested-phase"), "{said}");
     assert_eq!(check(&["--hash-scale", "0"]).status.code(), Some(2));
 }
 

@@ -9,9 +9,10 @@ use hashed_alpha::check::specimen;
 use std::collections::BTreeMap;
 
 /// Files that may name a claim beside its own and the list, each with the reason.
-const MORE: [(&str, &str, &str); 2] = [
+const MORE: [(&str, &str, &str); 3] = [
     ("range::RANGE", "check/diagnosis.rs", "a subject without thresholds is told so, and nothing else"),
-    ("exact::CELLS", "cli/check.rs", "a file whose cells lie elsewhere is told the option for it"),
+    ("range::RANGE", "check/mend/mod.rs", "a clamp in the wrong place is seen before all claims are tried"),
+    ("exact::CELLS", "check/mend/mod.rs", "a root of one half in another number of digits moves cells"),
 ];
 
 type Sources = BTreeMap<String, String>;

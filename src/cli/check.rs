@@ -172,10 +172,8 @@ fn tried(claims: &[Claim], subjects: &[Subject<'_>], draw: &Draw) -> Vec<Outcome
 /// Says on stderr what experiments show of a shader before its claims are tried, which takes longer.
 fn foretell(subject: &Subject<'_>) {
     for Found { slip, shown, .. } in cause::examine(subject).found {
-        output::remark(
-            "cause so far",
-            format_args!("{}: {} ({shown}); {}", subject.name, slip.defect, slip.mend),
-        );
+        let name = &subject.name;
+        output::remark("note", format_args!("{name} so far: {} ({shown}); {}", slip.defect, slip.mend));
     }
 }
 

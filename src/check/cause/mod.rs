@@ -14,9 +14,11 @@ mod measure;
 mod probe;
 mod reads;
 mod slip;
+mod step;
 mod two_scale;
 
 pub use slip::{Found, Slip};
+pub use step::Step;
 
 use super::Subject;
 use crate::stats::seed;

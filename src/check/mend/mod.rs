@@ -9,7 +9,7 @@ mod edits;
 mod ours;
 mod syntax;
 
-use super::cause::{self, Examination, Found};
+use super::cause::{self, Examination, Found, Step};
 use super::claims;
 use super::results::Results;
 use super::shaders;
@@ -239,83 +239,14 @@ fn places() -> Vec<Fragment> {
     (0..FRAGMENTS).map(draw).collect()
 }
 
-/// Slips on the way to a scale.
-const OF_SCALE: [&str; 20] = [
-    "dfdx-twice",
-    "min-for-max",
-    "fwidth",
-    "length-of-sum",
-    "sum-of-lengths",
-    "area-of-a-pixel",
-    "largest-component",
-    "derivative-without-z",
-    "hash-scale-ignored",
-    "hash-scale-divides",
-    "squared-length",
-    "one-plus-derivative",
-    "missing-sqrt-half",
-    "noise-of-another-size",
-    "half-the-noise",
-    "inverse-scale",
-    "natural-logarithm",
-    "axes-exchanged",
-    "other-variant",
-    "no-octaves",
-];
-
-/// Slips of the join and behind it.
-const OF_JOIN: [&str; 40] = [
-    "coarser-for-finer",
-    "octave-skipped",
-    "one-octave-for-both",
-    "coarse-octave-alone",
-    "nearest-octave",
-    "octave-rounded",
-    "linear-weight",
-    "weight-of-the-scale",
-    "smoothstep-weight",
-    "second-hash-from-the-first",
-    "weights-that-add-up-to-more",
-    "geometric-mean",
-    "weights-swapped",
-    "weight-always-half",
-    "no-cdf",
-    "case-by-lerp-factor",
-    "divisor-without-two",
-    "a-without-min",
-    "first-cases-swapped",
-    "last-case-missing",
-    "middle-case-unshifted",
-    "last-case-unmirrored",
-    "cdf-of-equal-weights",
-    "inverse-for-cdf",
-    "density-for-cdf",
-    "smoothstep-for-cdf",
-    "cdf-twice",
-    "larger-of-two",
-    "product-of-two",
-    "mean-of-two",
-    "sum-that-wraps",
-    "clamped-at-zero",
-    "coarse-steps",
-    "half-precision",
-    "gamma-curve",
-    "srgb-curve",
-    "around-a-cutoff",
-    "safe-middle",
-    "clamped-by-255ths",
-    "clamped-below-opaque",
-];
-
 /// The steps in which something is wrong: all but the hash where that is not known.
 fn wrong(examination: &Examination) -> Steps {
     let mut steps = Steps::default();
-    for name in examination.found.iter().map(|found| found.slip.name) {
-        let is_of = [OF_SCALE.contains(&name), OF_JOIN.contains(&name)];
-        match is_of {
-            [true, _] => steps.scale = true,
-            [_, true] => steps.join = true,
-            [false, false] => steps.hash = true,
+    for found in &examination.found {
+        match found.slip.step() {
+            Step::Scale => steps.scale = true,
+            Step::Join => steps.join = true,
+            Step::Hash => steps.hash = true,
         }
     }
     if examination.found.is_empty() { Steps::ALL } else { steps }
