@@ -3,7 +3,8 @@
 //!
 //! `shipped/answers.tsv` has what has to be typed for each, and what is wrong with it. The reader was made with the first 28, which run
 //! without a word or with a value for a uniform; of the other 25, by somebody else, 13 ran when they were tried for the first time, and
-//! what stopped the others was mended. `-` stands for a slip that no experiment tells: a natural logarithm in the weight alone.
+//! what stopped the others was mended. `ForwardLitPass.hlsl` takes the ceiling for both octaves, which looks like a sum that wraps
+//! around; that is what is told. `-` stands for a slip that no experiment tells: a natural logarithm in the weight alone.
 
 use hashed_alpha::check::{cause, shaders};
 use hashed_alpha::shader::interpreter::DeviceModel;

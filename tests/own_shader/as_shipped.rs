@@ -167,6 +167,77 @@ fn the_threshold_of_any_other_test_is_found_by_halving() {
 }
 
 #[test]
+fn what_is_no_plain_test_is_not_read_as_one() {
+    let function = |body: &str| format!("{HASH}vec3 g; void init(vec3 p) {{ g = p + 1.0; }} {body}");
+    let values = [
+        // More terms than two.
+        ("void f(float alpha, vec3 pos) { if (alpha - hash(pos) + 0.125 < 0.0) discard; }", WANTED - 0.125),
+        // A threshold that is handed the alpha, and one that is cut off.
+        (
+            "float t(float alpha, vec3 p) { return hash(p); } bool f(float alpha, vec3 pos) { return alpha >= t(alpha, pos); }",
+            WANTED,
+        ),
+        ("bool f(float alpha, vec3 pos) { return alpha >= 0.9375 && alpha >= hash(pos); }", 0.9375),
+        // What a call leaves behind.
+        (
+            "void f(float alpha, vec3 pos) { g = pos; init(pos); if (alpha < hash(g)) discard; }",
+            WANTED + 0.75 - 1.0,
+        ),
+        (
+            "void cut(float a, float t) { t *= 0.5; if (a < t) discard; } void f(float alpha, vec3 pos) { cut(alpha, hash(pos)); }",
+            0.5 * WANTED,
+        ),
+        ("bool f(float alpha, vec3 pos) { return alpha < hash(pos) ? false : true; }", WANTED),
+    ];
+    for (body, wanted) in values {
+        let shader = glsl(&function(body), &named("f")).unwrap_or_else(|error| panic!("{error}: {body}"));
+        let found = threshold(&shader, AT);
+        assert!((found - wanted).abs() < 1.0e-6, "{found}, not {wanted}: {body}");
+    }
+    let main = |body: &str| {
+        let text = format!("{HASH}in vec3 vPosition;\nvoid main() {{ vec4 c = texture(map, uv);\n{body} }}");
+        glsl(&text, &named("main"))
+    };
+    for refused in [
+        "if (c.a - hash(vPosition) + 0.1 < 0.0) discard;",
+        "if (1.0 - c.a > hash(vPosition)) discard;",
+        "if (1.0 - step(hash(vPosition), c.a) > 0.5) discard;",
+    ] {
+        let error = main(refused).unwrap_err();
+        assert!(error.contains("`main` has no test of an alpha that is found"), "{error}: {refused}");
+    }
+    for reversed in [
+        "if (c.a < hash(vPosition) ? false : true) discard;",
+        "if (any(not(lessThan(vec2(c.a), vec2(hash(vPosition)))))) discard;",
+    ] {
+        assert!(main(reversed).unwrap_err().contains("own.glsl:4:"), "{reversed}");
+    }
+    // What else the alpha is compared with is told.
+    let twice = main("if (c.a < 0.5) discard;\nif (c.a < hash(vPosition)) discard;").unwrap();
+    assert_eq!(
+        twice.notes,
+        [
+            "the threshold is what `c.a` is compared with in line 5, in `main`: `hash(vPosition)`; it is compared in line 4, too, which is left out"
+        ]
+    );
+    let pointer = format!(
+        "{HASH_WGSL}fn f(alpha: f32, pos: vec3f) -> bool {{ var p = pos; let r = &p; *r += 1.0; return alpha >= hash(p); }}"
+    );
+    let found = threshold(&wgsl(&pointer, &named("f")).unwrap(), AT);
+    assert!((found - WANTED + 0.75 - 1.0).abs() < 1.0e-6, "{found}");
+    // A member that is changed has a value before.
+    let changed = "struct S { vec3 pos; float t; }; float threshold(S s) { s.t = 0.0; s.pos += 0.25; return fract(s.pos.x + s.t); }";
+    assert_eq!(threshold(&glsl(changed, &options(&[])).unwrap(), [0.5, 0.0, 0.0]), 0.75);
+    // Exact names, of any type that a value can be made into.
+    let exact = "in vec3 position; float threshold(float frame, vec4 pixel) { return fract(position.x) + 0.0 * frame * pixel.w; }";
+    assert_eq!(threshold(&glsl(exact, &options(&[])).unwrap(), [0.375, 0.0, 0.0]), 0.375);
+    let other = "#ifdef LOW\nfloat threshold(vec3 p) { return 0.5; }\n#else\nfloat threshold(vec3 p) { return fract(p.x); }\n#endif";
+    assert_eq!(threshold(&glsl(other, &options(&[])).unwrap(), [0.375, 0.0, 0.0]), 0.375);
+    let hole = "fn threshold(p: vec3f) -> f32 { return fract(p.x) * #{SCALE}; }";
+    assert_eq!(threshold(&wgsl(hole, &options(&[("SCALE", "0.5")])).unwrap(), [0.5, 0.0, 0.0]), 0.25);
+}
+
+#[test]
 fn a_test_the_wrong_way_around_is_told_with_its_line() {
     let text =
         format!("{HASH}void main() {{\n  vec4 c = texture(map, uv);\n  if (c.a > hash(vPos)) discard;\n}}");
@@ -276,7 +347,7 @@ fn files_that_are_there_are_included() {
     std::fs::write(&main, &text).unwrap();
     assert_eq!(threshold(&read(&main, &with).unwrap(), [0.375, 0.0, 0.0]), 0.75);
     let error = read(&main, &Options::default()).unwrap_err().to_string();
-    assert!(error.contains("`#include \"hash.glsl\"` may have it"), "{error}");
+    assert!(error.contains("`#include \"hash.glsl\"` may have it, which is neither"), "{error}");
     // A mistake in one is told in it.
     write("lib/more.glsl", "\n\nfloat more(float x) { return x * y; }\n");
     let error = read(&main, &with).unwrap_err();
@@ -289,7 +360,7 @@ fn files_that_are_there_are_included() {
 #[test]
 fn an_engines_own_preprocessor_is_carried_out() {
     let text = "#import bevy_pbr::{\n    mesh_functions,\n    forward_io::{VertexOutput, FragmentOutput},\n    utils::hash,\n}
-#ifdef HASHED\nfn threshold(pos: vec3f) -> f32 { return fract(pos.x) * FACTOR; }\n#else\nfn threshold(pos: Unknown) {}\n#endif
+#ifdef HASHED\nfn threshold(pos: vec3f) -> f32 { return fract(pos.x) * FACTOR; }\n#else\nfn other(pos: Unknown) {}\n#endif
 #if SAMPLES > 1\nconst FACTOR = 0.5;\n#else\nconst FACTOR = 1.0;\n#endif
 @group(#{MATERIAL}) @binding(0) var<uniform> material: Material;
 @fragment fn fragment(in: VertexOutput) -> @location(0) vec4f { return shade(in); }";

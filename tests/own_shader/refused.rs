@@ -138,7 +138,7 @@ fn text_comes_as_editors_save_it() {
     for (text, wanted) in [
         (
             "#include <common>\nfloat threshold() { return rand(1.0); }",
-            "own.glsl:2:28: Unknown function 'rand'; files are not included, and `#include <common>` may have it",
+            "own.glsl:2:28: Unknown function 'rand'; `#include <common>` may have it, which is neither beside the file",
         ),
         (
             "#include <a>\nfloat threshold() { return PI; }",

@@ -172,10 +172,11 @@ pub(super) const CORRECTIONS: &[Correction] = &[
 ];
 
 /// Joins whose value does not follow the weight show two cells at every view, each with its own law of single cells: the
-/// distribution function of the value of two hashes. A uniform one is taken for one hash of the finer cell, as of two ceilings: a sum
-/// that wraps around looks the same, and is not what people write.
+/// distribution function of the value of two hashes. One hash of the finer cell, as of two ceilings, looks like a sum that wraps
+/// around.
 pub(super) const WEIGHTLESS: &[(Slip, Distribution)] = &[
     (named("larger-of-two"), |x| x * x),
     (named("product-of-two"), |x| if x > 0.0 { x - x * libm::log(x) } else { 0.0 }),
     (named("mean-of-two"), |x| cdf::cdf(x, 0.5)),
+    (named("sum-that-wraps"), |x| x),
 ];

@@ -346,8 +346,7 @@ fn weightless(probe: &Probe<'_>) -> Option<Slip> {
     if follows(&values, |x| x) && moved < 0.29 * CELLS as f64 {
         return Some(HALF);
     }
-    // One hash, of the finer cell.
-    if follows(&values, |x| x) { None } else { nearest(&values, WEIGHTLESS).copied() }
+    nearest(&values, WEIGHTLESS).copied()
 }
 
 /// Thresholds in steps, or at an end where none should be.

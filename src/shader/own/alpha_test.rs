@@ -3,7 +3,7 @@
 //! statements only those stay from which the threshold comes.
 
 use super::directives::Directive;
-use super::error::{Fault, Place};
+use super::error::Fault;
 use super::items::{Item, reached};
 use super::mapping::is_alpha;
 use super::options::{ALPHA, Options};
@@ -48,8 +48,10 @@ pub(super) struct Rewritten {
     pub function: String,
     /// A byte of the test.
     pub at: usize,
-    /// What was done, for the user.
-    pub note: String,
+    /// What is compared, as it is written: the alpha and the threshold.
+    pub sides: [String; 2],
+    /// Bytes of further comparisons of the same alpha, which are left out.
+    pub others: Vec<usize>,
 }
 
 /// Words by which a texture is read.
@@ -110,6 +112,13 @@ pub(super) fn rewritten(file: &File<'_, '_>, asked: &Options) -> Result<Option<R
         let Some(head) = Head::of(file, item) else { continue };
         let is_wgsl = file.dialect == Dialect::Wgsl;
         let body = Body::of(file.text, file.tokens, file.in_directive, head.name, is_wgsl);
+        // What is written through a pointer to a variable is not followed.
+        let is_pointed_to = |at: usize| {
+            is_wgsl && body.word(at) == "=" && body.word(at + 1) == "&" && is_name(body.word(at + 2))
+        };
+        if (0..body.at.len()).any(is_pointed_to) {
+            continue;
+        }
         let statements = body.statements();
         let mut search = Search {
             file,
@@ -122,10 +131,32 @@ pub(super) fn rewritten(file: &File<'_, '_>, asked: &Options) -> Result<Option<R
         };
         search.within(&statements)?;
         if let Some(test) = search.found {
-            return Ok(Some(test.rewrite(file, asked, &body, &head, item)));
+            let others = others(&body, &test);
+            // A function of an alpha alone is tried as a whole.
+            if !others.is_empty() && head.alpha(asked).is_some() {
+                continue;
+            }
+            return Ok(Some(Rewritten { others, ..test.rewrite(file, asked, &body, &head, item) }));
         }
     }
     Ok(None)
+}
+
+/// Bytes at which the alpha of a test is compared with something else.
+fn others(body: &Body<'_>, test: &Test<'_>) -> Vec<usize> {
+    let alpha = body.written(&test.alpha);
+    let is_same = |side: &Range<usize>| !side.is_empty() && body.written(side) == alpha;
+    let of_words = |range: Range<usize>| -> Vec<Comparison> {
+        match body.word(range.start) {
+            "if" => comparisons(body, range.start + 2..body.closing(range.start + 1)),
+            _ => comparisons(body, range.start + 1..range.end),
+        }
+    };
+    let starts = (0..body.at.len()).filter(|&at| matches!(body.word(at), "if" | "return"));
+    let end = |start: usize| (start..body.at.len()).find(|&at| body.word(at) == ";").unwrap_or(body.at.len());
+    let all = starts.flat_map(|start| of_words(start..end(start)));
+    let sides = all.flat_map(|comparison| [comparison.left, comparison.right]);
+    sides.filter(|side| is_same(side) && *side != test.alpha).map(|side| body.bytes(&side).start).collect()
 }
 
 /// What stands before the body of a function.
@@ -264,9 +295,7 @@ impl<'s> Search<'_, 's, '_> {
             "discard" => self.guarded(true),
             "clip" => {
                 let argument = at.start + 2..body.closing(at.start + 1);
-                let minus = (argument.start + 1..argument.end)
-                    .find(|&at| body.word(at) == "-" && depth(body, argument.start, at) == 0);
-                let Some(minus) = minus else { return Ok(()) };
+                let Some(minus) = only_minus(body, &argument) else { return Ok(()) };
                 let sides = Comparison {
                     left: argument.start..minus,
                     right: minus + 1..argument.end,
@@ -328,6 +357,13 @@ impl<'s> Search<'_, 's, '_> {
                     let index = head.parameters.iter().position(|p| theirs.written(side) == p.name)?;
                     arguments.get(index).cloned()
                 };
+                let is_changed = |side: &Range<usize>| {
+                    let written = theirs.assigned(0..theirs.at.len());
+                    theirs.names(side.clone()).any(|name| written.contains(name))
+                };
+                if is_changed(&left) || is_changed(&right) {
+                    continue;
+                }
                 if let (Some(left), Some(right)) = (handed(&left), handed(&right)) {
                     self.take(Comparison { left, right, holds_below }, Some(fails), path)?;
                 }
@@ -376,7 +412,15 @@ impl<'s> Search<'_, 's, '_> {
         // An alpha that is changed on the way has another threshold than what it is compared with.
         let is_said = self.asked.map.get(ALPHA).is_some_and(|name| name == self.body.written(&alpha));
         let parameter = self.head.alpha(self.asked).filter(|_| !is_said);
-        if parameter.is_some_and(|parameter| !self.is_as_given(&path, &alpha, parameter)) {
+        if let Some(parameter) = parameter {
+            // A threshold that depends on the alpha is another one for each.
+            let needed = slice(self.body, &path, &threshold).0;
+            if !self.is_as_given(&path, &alpha, parameter) || needed.contains(parameter) {
+                return Ok(());
+            }
+        }
+        // Of a difference it is not known how it follows the alpha.
+        if alpha.clone().any(|at| self.body.word(at) == "-") {
             return Ok(());
         }
         if let Some(fails) = fails
@@ -538,7 +582,9 @@ fn compare(
     let top =
         |wanted: &dyn Fn(usize) -> bool| (start..end).find(|&at| wanted(at) && depth(body, start, at) == 0);
     if let Some(mark) = top(&|at| body.word(at) == "?") {
-        return inner(start..mark, is_negated, found);
+        let is_reversed = matches!(body.word(mark + 1), "false" | "0" | "0.0")
+            && matches!(body.word(mark + 3), "true" | "1" | "1.0");
+        return inner(start..mark, is_negated != is_reversed, found);
     }
     if let Some(sign) = top(&|at| matches!(body.word(at), "&" | "|") && body.word(at + 1) == body.word(at)) {
         inner(start..sign, is_negated, found);
@@ -569,13 +615,14 @@ fn compare(
         let (left, right) = (start..sign, behind.min(end)..end);
         // `step(t, a) < 0.5` is 0 there.
         if is_number(&right) && has_step(left.clone()) {
-            return inner(left, is_negated != is_less, found);
+            if body.word(left.start) == "step" && body.closing(left.start + 1) + 1 == left.end {
+                inner(left, is_negated != is_less, found);
+            }
+            return;
         }
         let holds_below = is_less != is_negated;
         let difference = |range: &Range<usize>| {
-            let minus = (range.start + 1..range.end)
-                .find(|&at| body.word(at) == "-" && depth(body, range.start, at) == 0)?;
-            Some((range.start..minus, minus + 1..range.end))
+            only_minus(body, range).map(|minus| (range.start..minus, minus + 1..range.end))
         };
         found.push(match (difference(&left), difference(&right)) {
             // `a - b < 0.0`, and `0.0 < a - b`.
@@ -621,11 +668,19 @@ fn compare(
             found.push(Comparison { left, right, holds_below: is_less != is_negated });
             return;
         }
+        let is_negated = is_negated != (body.word(start) == "not");
         // A conversion, or one of several values.
         let last =
             (start + 2..end - 1).rev().find(|&at| body.word(at) == "," && depth(body, start + 2, at) == 0);
         inner(last.map_or(start + 2, |comma| comma + 1)..end - 1, is_negated, found);
     }
+}
+
+/// The sign of a difference of two values; nothing where there are more terms.
+fn only_minus(body: &Body<'_>, range: &Range<usize>) -> Option<usize> {
+    let is_sign = |&at: &usize| matches!(body.word(at), "-" | "+") && depth(body, range.start, at) == 0;
+    let mut signs = (range.start + 1..range.end).filter(is_sign);
+    signs.next().filter(|&at| body.word(at) == "-" && signs.next().is_none())
 }
 
 /// What a constructor of a vector repeats, as in `vec2(x)`; any other value as it is.
@@ -750,15 +805,11 @@ impl Test<'_> {
         edits.push((value.start..value.start, words("return (")));
         edits.push((value.end..value.end, words(");")));
         edits.sort_by_key(|(range, _)| range.start);
-        let line = Place::of(file.text, value.start).line;
-        let note = format!(
-            "the threshold is what `{}` is compared with in line {line}, in `{}`: `{}`",
-            body.written(&self.alpha),
-            asked.function,
-            body.written(&self.threshold).split_whitespace().collect::<Vec<_>>().join(" "),
-        );
+        let plain =
+            |range: &Range<usize>| body.written(range).split_whitespace().collect::<Vec<_>>().join(" ");
+        let sides = [plain(&self.alpha), plain(&self.threshold)];
         let function = if is_main { MAIN.to_owned() } else { asked.function.clone() };
-        Rewritten { blank, edits, function, at: value.start, note }
+        Rewritten { blank, edits, function, at: value.start, sides, others: Vec::new() }
     }
 }
 

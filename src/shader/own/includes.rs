@@ -44,7 +44,9 @@ impl Includes<'_> {
                 return Err(Fault::new(format!("files that include each other more than {DEEPEST} deep"))
                     .at(Some(at)));
             }
-            let put = if self.read.insert(path.clone()) {
+            // Functions may be there once only, statements as often as they are wanted.
+            let is_new = self.read.insert(path.clone());
+            let put = if is_new || self.has_no_function(&path) {
                 let theirs = self.text(&path).map_err(|message| Fault::new(message).at(Some(at.clone())))?;
                 let mut its = Sources::of(&path.display().to_string(), &theirs);
                 // What is wrong in it is told at the line that includes it.
@@ -62,6 +64,14 @@ impl Includes<'_> {
             edits.push((at, put));
         }
         Ok(if edits.is_empty() { text } else { sources.exchange(&text, edits) })
+    }
+
+    fn has_no_function(&mut self, path: &Path) -> bool {
+        let text = self.text(path).unwrap_or_default();
+        !text.is_empty()
+            && !text.contains('{')
+            && !text.contains("#pragma once")
+            && !text.contains("#include")
     }
 
     /// Finds the file that a directive names: between quotes or angles.

@@ -321,10 +321,9 @@ pub(super) fn map(
     for meaning in meanings().filter(|&meaning| !said.contains_key(meaning)) {
         // A name of ours goes before all others, and is refused where its type is another.
         let is_ours = |item: &Item| item.name == meaning && !pixels.contains(&item.name);
-        if items
-            .iter()
-            .any(|item| is_ours(item) && matches!(item.place, Place::Parameter(_)) && meaning != PIXEL_SIZE)
-        {
+        if items.iter().any(|item| {
+            is_ours(item) && item.place.is_parameter() && !is_of_another_type(module, meaning, item.ty)
+        }) {
             continue;
         }
         let is_free = |item: &&Item| {
@@ -380,6 +379,7 @@ pub(super) fn map(
     }
     let mut notes: Vec<_> =
         taken.iter().map(|(item, meaning)| Taken { name: item.name.clone(), meaning }).collect();
+    let names = notes.iter().map(|taken| taken.name.clone()).collect();
     notes.retain(|taken| taken.name != taken.meaning);
     let has_structures =
         module.functions[target].arguments.iter().any(|argument| members(module, argument.ty).is_some());
@@ -393,7 +393,7 @@ pub(super) fn map(
     }
     let target =
         if taken.is_empty() && !has_structures { target } else { wrap(module, target, &taken, &items) };
-    Ok(Mapped { target, notes, members })
+    Ok(Mapped { target, notes, names, members })
 }
 
 /// A function that takes the values of a fragment.
@@ -401,6 +401,8 @@ pub(super) struct Mapped {
     pub target: Handle<Function>,
     /// What was taken for what under another name.
     pub notes: Vec<Taken>,
+    /// The names of all that has got a value.
+    pub names: BTreeSet<String>,
     /// The members of variables that have got a value.
     pub members: BTreeMap<Handle<GlobalVariable>, BTreeSet<usize>>,
 }
@@ -563,19 +565,7 @@ fn reads(
         }
     }
     let mut found = BTreeSet::new();
-    let stored: BTreeSet<_> = statements
-        .iter()
-        .filter_map(|statement| match **statement {
-            Statement::Store { pointer, .. } => Some(pointer),
-            _ => None,
-        })
-        .collect();
-    let is_stored = |of: Handle<Expression>, member: u32| {
-        body.expressions.iter().any(|(at, expression)| {
-            stored.contains(&at)
-                && matches!(*expression, Expression::AccessIndex { base, index } if base == of && index == member)
-        })
-    };
+    let given = given(body, &same);
     // The front end of GLSL leads to every member of a block, and reads some.
     let is_pointer = |at: Handle<Expression>| match body.expressions[at] {
         Expression::GlobalVariable(_) | Expression::LocalVariable(_) => true,
@@ -603,12 +593,11 @@ fn reads(
     };
     for (at, expression) in body.expressions.iter() {
         match expression {
-            Expression::AccessIndex { base, index } if same.contains(base) => {
-                // What the function itself gives a value to waits for none.
-                let is_given = same.iter().any(|&of| is_stored(of, *index));
-                if !is_given && (!is_pointer(*base) || is_used(at)) {
-                    found.insert(*index as usize);
-                }
+            // What the function itself gives a value to waits for none.
+            Expression::AccessIndex { base, index }
+                if same.contains(base) && !given.contains(index) && (!is_pointer(*base) || is_used(at)) =>
+            {
+                found.insert(*index as usize);
             }
             Expression::Compose { components, .. } if components.iter().any(|part| same.contains(part)) => {
                 return None;
@@ -634,6 +623,35 @@ fn reads(
         }
     }
     Some(found)
+}
+
+/// The members of a structure, by what stands for it, that a function gives a value to before it reads them, whatever the way.
+fn given(body: &Function, same: &BTreeSet<Handle<Expression>>) -> BTreeSet<u32> {
+    let member = |at: Handle<Expression>| match body.expressions[at] {
+        Expression::AccessIndex { base, index } if same.contains(&base) => Some(index),
+        _ => None,
+    };
+    let is_load = |at: Handle<Expression>| matches!(body.expressions[at], Expression::Load { .. });
+    // What an emitted expression reads.
+    let read = |at: Handle<Expression>| match body.expressions[at] {
+        Expression::Load { pointer } => member(pointer),
+        Expression::AccessIndex { base, .. } if is_load(base) => member(at),
+        _ => None,
+    };
+    let (mut given, mut was_read) = (BTreeSet::new(), BTreeSet::new());
+    for statement in body.body.iter() {
+        let block = naga::Block::from_vec(vec![statement.clone()]);
+        for within in all_statements(&block) {
+            if let Statement::Emit(range) = within {
+                was_read.extend(range.clone().filter_map(read).filter(|index| !given.contains(index)));
+            }
+        }
+        // Within a branch it may not be given.
+        if let Statement::Store { pointer, .. } = statement {
+            given.extend(member(*pointer).filter(|index| !was_read.contains(index)));
+        }
+    }
+    given
 }
 
 /// The statements of a block and of those in it.
@@ -684,6 +702,12 @@ fn shape(inner: &TypeInner) -> Option<(usize, ScalarKind)> {
         _ => return None,
     };
     (scalar.width == 4).then_some((size, scalar.kind))
+}
+
+/// Whether a type is not that of a value of a fragment, and can be made out of it.
+fn is_of_another_type(module: &Module, meaning: &str, ty: Handle<Type>) -> bool {
+    let is_same = shape(&module.types[ty].inner) == shape(&signature::type_of(meaning).inner);
+    meaning == PIXEL_SIZE || !is_same && is_made(module, meaning, ty)
 }
 
 /// Whether [`made`] can make a type out of a value of a fragment.

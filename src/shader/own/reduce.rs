@@ -53,10 +53,10 @@ pub(super) fn reduce(front: Front, options: &Options, pixels: &BTreeSet<String>)
     if takes_copies {
         target = pointers::wrap(&mut module, target);
     }
-    let Mapped { target, notes: taken, members } =
+    let Mapped { target, notes: taken, names, members } =
         mapping::map(&mut module, target, options, &settings, &filled, &uniforms, pixels)?;
-    uniforms.retain(|name| taken.iter().all(|taken| taken.name != *name));
-    filled.retain(|name| taken.iter().all(|taken| taken.name != *name));
+    uniforms.retain(|name| !names.contains(name));
+    filled.retain(|name| !names.contains(name));
     let target = quads::wrap(&mut module, target);
     let its_name = if target == own { NAME.to_owned() } else { prefixed(Some(options.function.clone())) };
     let bindings = signature::bind(&module, target, &options.function, &mut settings)?;

@@ -125,6 +125,14 @@ pub(super) fn absent(name: &str, functions: &BTreeMap<String, Option<String>>) -
     )
 }
 
+/// Says of an entry point that it has no test of an alpha.
+pub(super) fn without_test(name: &str) -> String {
+    format!(
+        "`{name}` has no test of an alpha that is found, as `if (alpha < threshold) discard;` is one: name a function that returns the \
+         threshold, or that has such a test (--function NAME); --map alpha=NAME says what is tested"
+    )
+}
+
 /// Finds where the parameters of a function get their values; takes those that it uses out of `settings`.
 ///
 /// # Errors

@@ -2,7 +2,7 @@
 
 use super::scan::Token;
 use core::ops::Range;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The words and signs of one body, directives left out, by their place in it.
 pub(super) struct Body<'t> {
@@ -12,6 +12,8 @@ pub(super) struct Body<'t> {
     pub at: Vec<usize>,
     /// Functions of the file that may write what they are handed.
     writers: BTreeSet<&'t str>,
+    /// What functions of the file may write by themselves, in those that they call, too.
+    effects: BTreeMap<&'t str, BTreeSet<&'t str>>,
     is_wgsl: bool,
 }
 
@@ -40,7 +42,8 @@ impl<'t> Body<'t> {
         let mut at: Vec<_> = (0..tokens.len()).filter(is_within).collect();
         // The brace that closes it stands outside of it.
         at.extend(at.last().map(|last| last + 1).filter(|&close| close < tokens.len()));
-        Self { text, tokens, at, writers: writers(text, tokens), is_wgsl }
+        let effects = effects(text, tokens, in_directive, is_wgsl);
+        Self { text, tokens, at, writers: writers(text, tokens), effects, is_wgsl }
     }
 
     /// The word or sign at a place; empty behind the last.
@@ -173,6 +176,11 @@ impl<'t> Body<'t> {
         for at in range.clone() {
             let word = self.word(at);
             let before = at.checked_sub(1).map_or("", |before| self.word(before));
+            if self.word(at + 1) == "("
+                && let Some(written) = self.effects.get(word)
+            {
+                found.extend(written);
+            }
             if self.writers.contains(word) && self.word(at + 1) == "(" {
                 found.extend(self.names(at + 2..self.closing(at + 1)));
             }
@@ -210,6 +218,42 @@ impl<'t> Body<'t> {
 /// Whether a word is a name or a keyword.
 pub(super) fn is_name(word: &str) -> bool {
     word.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
+}
+
+/// What the functions of a text give a value to, their own variables among it.
+fn effects<'t>(
+    text: &'t str,
+    tokens: &'t [Token],
+    in_directive: &[bool],
+    is_wgsl: bool,
+) -> BTreeMap<&'t str, BTreeSet<&'t str>> {
+    let names: BTreeSet<usize> = tokens.iter().filter_map(|token| token.function).collect();
+    let word = |at: usize| &text[tokens[at].at.clone()];
+    let mut found: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
+    let mut called: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
+    for name in names {
+        let at =
+            (0..tokens.len()).filter(|&at| tokens[at].function == Some(name) && !in_directive[at]).collect();
+        let body = Body { text, tokens, at, writers: BTreeSet::new(), effects: BTreeMap::new(), is_wgsl };
+        let all = 0..body.at.len();
+        found.entry(word(name)).or_default().extend(body.assigned(all.clone()));
+        called.entry(word(name)).or_default().extend(body.names(all));
+    }
+    // What is written by what is called.
+    loop {
+        let mut grew = false;
+        for (name, names) in &called {
+            let theirs: BTreeSet<&str> =
+                names.iter().filter_map(|called| found.get(called)).flatten().copied().collect();
+            let own = found.entry(name).or_default();
+            let before = own.len();
+            own.extend(theirs);
+            grew |= own.len() > before;
+        }
+        if !grew {
+            return found;
+        }
+    }
 }
 
 /// The functions of a text that have a parameter which they may write.

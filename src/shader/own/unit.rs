@@ -45,8 +45,9 @@ pub(super) fn unit(
     let mut asked = asked.clone();
     let mut text = text;
     if dialect == Dialect::Wgsl {
-        text = without_holes(&text, &asked);
+        text = without_holes(&text, &mut asked);
     } else {
+        text = without(&text, |_, lines| Ok(dead(lines)))?;
         let mut includes = Includes { folders: &asked.include, most: LARGEST_FILE, read: BTreeSet::new() };
         text = includes.expand(text, sources, folder, 0)?;
         text = without(&text, |words, lines| Ok([dead(lines), line_macros(&text, words, lines)].concat()))?;
@@ -72,9 +73,12 @@ pub(super) fn unit(
             asked.function = name;
         }
         refuse_absent(&file, &asked)?;
-        let mut names = all.iter().filter_map(|item| item.function);
-        let name = names.find(|&name| text[words[name].at.clone()] == asked.function);
-        let place = name.map(|name| words[name].at.start);
+        let names =
+            all.iter().filter_map(|item| item.function).filter(|&name| file.word(name) == asked.function);
+        let places: Vec<_> = names.map(|name| words[name].at.start).collect();
+        // Where one of several stands there without a word, that is the one.
+        let is_read = |&at: &usize| needed(&lines, at).is_empty();
+        let place = if places.iter().any(is_read) { None } else { places.first().copied() };
         define(place, &lines, &mut asked, &mut notes);
     }
     if dialect == Dialect::Wgsl {
@@ -129,7 +133,17 @@ pub(super) fn unit(
     let named = core::mem::replace(&mut asked.function, test.function);
     // What has gone into the test needs no value any more.
     asked.map.remove(ALPHA);
-    notes.push(test.note);
+    let line = |at: usize| sources.locate(at).map_or(0, |(_, place)| place.line);
+    let [alpha, threshold] = &test.sides;
+    let mut note = format!(
+        "the threshold is what `{alpha}` is compared with in line {}, in `{named}`: `{threshold}`",
+        line(test.at)
+    );
+    if !test.others.is_empty() {
+        let lines: Vec<_> = test.others.iter().map(|&at| line(at).to_string()).collect();
+        note += &format!("; it is compared in line {}, too, which is left out", lines.join(", "));
+    }
+    notes.push(note);
     Ok(Unit { text: sources.exchange(&blanked, test.edits), asked, named, notes, pixels })
 }
 
@@ -154,16 +168,19 @@ fn without(
 }
 
 /// Fills the holes of an engine's templates in WGSL, `#{NAME}`, with what `--set` gives, or 0.
-fn without_holes(text: &str, asked: &Options) -> String {
+fn without_holes(text: &str, asked: &mut Options) -> String {
     let mut filled = text.to_owned();
+    let mut used = BTreeSet::new();
     while let Some(start) = filled.find("#{") {
         let Some(length) = filled[start..].find('}') else { break };
         let name = filled[start + 2..start + length].trim();
         let value =
             asked.settings.get(name).filter(|value| value.len() <= length).map_or("0", String::as_str);
         let value = format!("{value:width$}", width = length + 1);
+        used.insert(name.to_owned());
         filled.replace_range(start..=start + length, &value);
     }
+    asked.settings.retain(|name, _| !used.contains(name));
     filled
 }
 

@@ -10,6 +10,7 @@ use super::items;
 use super::nesting::Nesting;
 use super::options::Options;
 use super::scan::{Token, end_of_file, tokens};
+use super::signature::without_test;
 use naga::front::wgsl::ParseError;
 
 /// Reads and validates a text; the derivatives of the position in the body of the function become variables.
@@ -36,9 +37,13 @@ pub(super) fn read(text: &str, asked: &Options) -> Result<Front, Fault> {
         prepared.push_str(&derivative::wgsl(variables));
     }
     let length = text.trim_end().len();
+    let function = asked.function.clone();
     let read = isolated(move || {
         let module = naga::front::wgsl::parse_str(&prepared).map_err(|error| said(&error, &prepared))?;
         validate(&module)?;
+        if module.entry_points.iter().any(|entry| entry.name == function) {
+            return Err(Fault::new(without_test(&function)));
+        }
         Ok(Front::plain(module, derivatives))
     });
     read.map_err(|fault| match &fault.at {

@@ -12,6 +12,7 @@ use super::isolated::isolated;
 use super::items;
 use super::options::Options;
 use super::scan::{Token, end_of_file, tokens};
+use super::signature::without_test;
 use naga::front::glsl::Frontend;
 
 /// Blanks what a function of a text in this language or one like it does not come to, and lines of `#include`; nothing moves. Returns
@@ -45,9 +46,7 @@ pub(super) fn reached(
 /// Text that is no GLSL or not valid.
 pub(super) fn read(text: &str, asked: &Options, prelude: &mut usize) -> Result<Front, Fault> {
     if asked.function == "main" {
-        let message = "`main` has no test of an alpha, as `if (alpha < threshold) discard;` is one: name a function that returns the \
-                       threshold, or that has such a test (--function NAME); --map alpha=NAME says what is tested";
-        return Err(Fault::new(message));
+        return Err(Fault::new(without_test(&asked.function)));
     }
     let tokens = tokens(text)?;
     let directives = directives::directives(text, &tokens);

@@ -42,7 +42,7 @@ pub(super) fn or_included(fault: Fault, directives: &[Directive<'_>]) -> Fault {
     let files = included.join(", ");
     Fault {
         message: format!(
-            "{}; files are not included, and {files} may have it: paste its text",
+            "{}; {files} may have it, which is neither beside the file nor in a folder of -I DIR",
             fault.message
         ),
         ..fault
