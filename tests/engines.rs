@@ -278,7 +278,7 @@ position ([your shader](your_shader.md)). For a port of a listing leave out `--n
         write!(
             page,
             "## {name}\n\n```text\nhashed-alpha check examples/engines/{file} --function {function} --nested-phase\n```\n\n\
-             Goes into {place}. What the program takes for what: {said}.\n\nBehind the threshold, [{file}](../examples/engines/{file}) has\n\n\
+             Where it goes: {place}. What the program takes for what: {said}.\n\nBehind the threshold, [{file}](../examples/engines/{file}) has\n\n\
              ```{fence}\n{}\n```\n\n",
             after.trim()
         )

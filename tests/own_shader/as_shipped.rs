@@ -224,7 +224,7 @@ fn what_is_no_plain_test_is_not_read_as_one() {
         "{HASH_WGSL}fn f(alpha: f32, pos: vec3f) -> bool {{ var p = pos; let r = &p; *r += 1.0; return alpha >= hash(p); }}"
     );
     let found = threshold(&wgsl(&pointer, &named("f")).unwrap(), AT);
-    assert!((found - WANTED + 0.75 - 1.0).abs() < 1.0e-6, "{found}");
+    assert!((found - (WANTED + 0.75 - 1.0)).abs() < 1.0e-6, "{found}");
     // A member that is changed has a value before.
     let changed = "struct S { vec3 pos; float t; }; float threshold(S s) { s.t = 0.0; s.pos += 0.25; return fract(s.pos.x + s.t); }";
     assert_eq!(threshold(&glsl(changed, &options(&[])).unwrap(), [0.5, 0.0, 0.0]), 0.75);

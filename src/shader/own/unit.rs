@@ -52,35 +52,24 @@ pub(super) fn unit(
         text = includes.expand(text, sources, folder, 0)?;
         text = without(&text, |words, lines| Ok([dead(lines), line_macros(&text, words, lines)].concat()))?;
     }
-    {
-        let words = tokens(&text)?;
-        let lines = directives(&text, &words);
-        let all = items(&text, &words, &lines);
-        let in_directive = in_directives(&lines, words.len());
-        let file = File {
-            text: &text,
-            tokens: &words,
-            directives: &lines,
-            in_directive: &in_directive,
-            items: &all,
-            dialect,
-        };
-        if let Some(name) = meant(&file, &asked) {
+    cut(&text, dialect, |file| {
+        if let Some(name) = meant(file, &asked) {
             let note = format!(
                 "there is no function `{THRESHOLD}`, and `{name}` is taken for it (--function names another)"
             );
             notes.push(note);
             asked.function = name;
         }
-        refuse_absent(&file, &asked)?;
-        let names =
-            all.iter().filter_map(|item| item.function).filter(|&name| file.word(name) == asked.function);
-        let places: Vec<_> = names.map(|name| words[name].at.start).collect();
+        refuse_absent(file, &asked)?;
+        let names = file.items.iter().filter_map(|item| item.function);
+        let names = names.filter(|&name| file.word(name) == asked.function);
+        let places: Vec<_> = names.map(|name| file.tokens[name].at.start).collect();
         // Where one of several stands there without a word, that is the one.
-        let is_read = |&at: &usize| needed(&lines, at).is_empty();
+        let is_read = |&at: &usize| needed(file.directives, at).is_empty();
         let place = if places.iter().any(is_read) { None } else { places.first().copied() };
-        define(place, &lines, &mut asked, &mut notes);
-    }
+        define(place, file.directives, &mut asked, &mut notes);
+        Ok(())
+    })?;
     if dialect == Dialect::Wgsl {
         let settings = asked.settings.clone();
         let mut macros = BTreeSet::new();
@@ -92,43 +81,20 @@ pub(super) fn unit(
         })?;
         asked.settings.retain(|name, _| !macros.contains(name));
     }
-    text = {
-        let words = tokens(&text)?;
-        let lines = directives(&text, &words);
-        let in_directive = in_directives(&lines, words.len());
-        let all = items(&text, &words, &lines);
-        let file = File {
-            text: &text,
-            tokens: &words,
-            directives: &lines,
-            in_directive: &in_directive,
-            items: &all,
-            dialect,
-        };
-        let edits = put_in(&file, &mut asked);
-        drop((words, lines, all));
-        if edits.is_empty() { text } else { sources.exchange(&text, edits) }
-    };
-    let words = tokens(&text)?;
-    let lines = directives(&text, &words);
-    let in_directive = in_directives(&lines, words.len());
-    let all = items(&text, &words, &lines);
-    let file = File {
-        text: &text,
-        tokens: &words,
-        directives: &lines,
-        in_directive: &in_directive,
-        items: &all,
-        dialect,
-    };
-    let pixels = pixels(&file);
-    notes.extend(precision(&file, &asked));
-    let Some(test) = rewritten(&file, &asked)? else {
-        drop((words, lines, all));
+    let edits = cut(&text, dialect, |file| Ok(put_in(file, &mut asked)))?;
+    if !edits.is_empty() {
+        text = sources.exchange(&text, edits);
+    }
+    let (pixels, test) = cut(&text, dialect, |file| {
+        notes.extend(precision(file, &asked));
+        let test = rewritten(file, &asked)?;
+        define(test.as_ref().map(|test| test.at), file.directives, &mut asked, &mut notes);
+        Ok((pixels(file), test))
+    })?;
+    let Some(test) = test else {
         let named = asked.function.clone();
         return Ok(Unit { text, asked, named, notes, pixels });
     };
-    define(Some(test.at), &lines, &mut asked, &mut notes);
     let blanked = blanked(&text, test.blank);
     let named = core::mem::replace(&mut asked.function, test.function);
     // What has gone into the test needs no value any more.
@@ -145,6 +111,26 @@ pub(super) fn unit(
     }
     notes.push(note);
     Ok(Unit { text: sources.exchange(&blanked, test.edits), asked, named, notes, pixels })
+}
+
+/// Cuts a text into words, lines of a preprocessor and items, and looks at them.
+fn cut<R>(
+    text: &str,
+    dialect: Dialect,
+    look: impl FnOnce(&File<'_, '_>) -> Result<R, Fault>,
+) -> Result<R, Fault> {
+    let words = tokens(text)?;
+    let lines = directives(text, &words);
+    let in_directive = in_directives(&lines, words.len());
+    let items = items(text, &words, &lines);
+    look(&File {
+        text,
+        tokens: &words,
+        directives: &lines,
+        in_directive: &in_directive,
+        items: &items,
+        dialect,
+    })
 }
 
 /// Blanks ranges of a text.
