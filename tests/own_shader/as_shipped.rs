@@ -212,6 +212,10 @@ fn what_is_no_plain_test_is_not_read_as_one() {
     ] {
         assert!(main(reversed).unwrap_err().contains("own.glsl:4:"), "{reversed}");
     }
+    let ends = format!(
+        "{HASH}bool f(float alpha, vec3 pos) {{ if (alpha >= 1.0) return true; return alpha >= hash(pos); }}"
+    );
+    assert!(glsl(&ends, &named("f")).unwrap().notes[0].starts_with("the threshold is what `alpha`"));
     // What else the alpha is compared with is told.
     let twice = main("if (c.a < 0.5) discard;\nif (c.a < hash(vPosition)) discard;").unwrap();
     assert_eq!(

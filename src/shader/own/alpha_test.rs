@@ -155,7 +155,11 @@ fn others(body: &Body<'_>, test: &Test<'_>) -> Vec<usize> {
     let starts = (0..body.at.len()).filter(|&at| matches!(body.word(at), "if" | "return"));
     let end = |start: usize| (start..body.at.len()).find(|&at| body.word(at) == ";").unwrap_or(body.at.len());
     let all = starts.flat_map(|start| of_words(start..end(start)));
-    let sides = all.flat_map(|comparison| [comparison.left, comparison.right]);
+    let both = all.map(|comparison| [comparison.left, comparison.right]);
+    // An alpha of 0 or 1 is on one side of every threshold.
+    let is_end =
+        |side: &Range<usize>| side.len() == 1 && matches!(body.word(side.start), "0" | "0.0" | "1" | "1.0");
+    let sides = both.filter(|sides| !sides.iter().any(is_end)).flatten();
     sides.filter(|side| is_same(side) && *side != test.alpha).map(|side| body.bytes(&side).start).collect()
 }
 
