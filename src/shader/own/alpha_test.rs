@@ -909,7 +909,7 @@ mod tests {
         );
         assert_eq!(
             of("void f(vec3 p, inout float alpha) { if (alpha < h(p)) alpha = 0.0; }", "f"),
-            "float f( vec3 p ) { return (h(p)); }"
+            "float f(vec3 p ) { return (h(p)); }"
         );
         assert_eq!(
             of("float f(float alpha, vec3 p) { return alpha < h(p) ? 0.0 : 1.0; }", "f"),

@@ -229,7 +229,7 @@ mod tests {
     fn a_text_without_such_a_literal_stays() {
         let text = "#define A \"b\"\nfloat f(vec3 p) { return 1.0; }";
         assert_eq!(left(text), text);
-        assert!(uncovered("`float f() {}` + `float f() {}`", &mut "f".to_owned()).is_err());
+        assert!(uncovered("`float f() {}`; b = `float f() {}`", &mut "f".to_owned()).is_err());
         let error = uncovered(
             "a = `float g(vec3 p) { return h(p); } float h() { return 1.0; }`;",
             &mut "f".to_owned(),

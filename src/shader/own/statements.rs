@@ -184,7 +184,8 @@ impl<'t> Body<'t> {
             if self.writers.contains(word) && self.word(at + 1) == "(" {
                 found.extend(self.names(at + 2..self.closing(at + 1)));
             }
-            if !is_name(word) || before == "." {
+            let is_type = self.is_wgsl && before == ":";
+            if !is_name(word) || before == "." || is_type {
                 continue;
             }
             let mut next = at + 1;
@@ -202,12 +203,15 @@ impl<'t> Body<'t> {
                 || matches!(sign, "+" | "-") && sign == second;
             let is_declared = matches!(before, "let" | "var" | "const")
                 || is_name(before) && matches!(sign, ";" | "," | "=");
+            let is_listed =
+                before == "," && self.tokens[self.at[at]].parentheses == 0 && matches!(sign, ";" | "," | "=");
             let is_stepped =
                 matches!(before, "+" | "-") && at.checked_sub(2).is_some_and(|two| self.word(two) == before);
             let is_handed_out = self.is_wgsl
                 && before == "&"
                 && at.checked_sub(2).is_some_and(|two| matches!(self.word(two), "(" | ","));
-            if (is_assigned || is_declared || is_stepped || is_handed_out) && before != "return" {
+            if (is_assigned || is_declared || is_listed || is_stepped || is_handed_out) && before != "return"
+            {
                 found.insert(word);
             }
         }
