@@ -111,6 +111,9 @@ pub(super) fn defined<'t>(text: &'t str, function: &str) -> Option<&'t str> {
 
 /// Whether a body, or what the function returns, follows the brackets that a text begins with.
 fn has_body(text: &str) -> bool {
+    if !text.starts_with('(') {
+        return false;
+    }
     let mut open = 0_usize;
     let close = text.bytes().position(|byte| {
         match byte {
