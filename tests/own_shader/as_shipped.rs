@@ -224,6 +224,18 @@ fn what_is_no_plain_test_is_not_read_as_one() {
             "the threshold is what `c.a` is compared with in line 5, in `main`: `hash(vPosition)`; it is compared in line 4, too, which is left out"
         ]
     );
+    let twice = format!(
+        "{HASH_WGSL}struct In {{ @location(0) pos: vec3f, @location(1) color: vec4f }}
+@fragment fn fs(in: In) {{ let c = in.color;
+if c.a < 0.5 {{ discard; }}
+if c.a < hash(in.pos) {{ discard; }} }}"
+    );
+    let notes = wgsl(&twice, &named("fs")).unwrap().notes;
+    assert!(
+        notes[0].contains("in line 5")
+            && notes[0].ends_with("it is compared in line 4, too, which is left out"),
+        "{notes:?}"
+    );
     let pointer = format!(
         "{HASH_WGSL}fn f(alpha: f32, pos: vec3f) -> bool {{ var p = pos; let r = &p; *r += 1.0; return alpha >= hash(p); }}"
     );

@@ -131,7 +131,7 @@ pub(super) fn rewritten(file: &File<'_, '_>, asked: &Options) -> Result<Option<R
         };
         search.within(&statements)?;
         if let Some(test) = search.found {
-            let others = others(&body, &test);
+            let others = others(&body, &statements, &test);
             // A function of an alpha alone is tried as a whole.
             if !others.is_empty() && head.alpha(asked).is_some() {
                 continue;
@@ -143,24 +143,36 @@ pub(super) fn rewritten(file: &File<'_, '_>, asked: &Options) -> Result<Option<R
 }
 
 /// Bytes at which the alpha of a test is compared with something else.
-fn others(body: &Body<'_>, test: &Test<'_>) -> Vec<usize> {
+fn others(body: &Body<'_>, statements: &[Statement], test: &Test<'_>) -> Vec<usize> {
     let alpha = body.written(&test.alpha);
     let is_same = |side: &Range<usize>| !side.is_empty() && body.written(side) == alpha;
-    let of_words = |range: Range<usize>| -> Vec<Comparison> {
-        match body.word(range.start) {
-            "if" => comparisons(body, range.start + 2..body.closing(range.start + 1)),
-            _ => comparisons(body, range.start + 1..range.end),
-        }
-    };
-    let starts = (0..body.at.len()).filter(|&at| matches!(body.word(at), "if" | "return"));
-    let end = |start: usize| (start..body.at.len()).find(|&at| body.word(at) == ";").unwrap_or(body.at.len());
-    let all = starts.flat_map(|start| of_words(start..end(start)));
+    let mut asked = Vec::new();
+    conditions(body, statements, &mut asked);
+    let all = asked.into_iter().flat_map(|condition| comparisons(body, condition));
     let both = all.map(|comparison| [comparison.left, comparison.right]);
     // An alpha of 0 or 1 is on one side of every threshold.
     let is_end =
         |side: &Range<usize>| side.len() == 1 && matches!(body.word(side.start), "0" | "0.0" | "1" | "1.0");
     let sides = both.filter(|sides| !sides.iter().any(is_end)).flatten();
     sides.filter(|side| is_same(side) && *side != test.alpha).map(|side| body.bytes(&side).start).collect()
+}
+
+/// The conditions of statements, and what they return.
+fn conditions(body: &Body<'_>, list: &[Statement], found: &mut Vec<Range<usize>>) {
+    for Statement { at, kind } in list {
+        match kind {
+            Kind::Block(inner) => conditions(body, inner, found),
+            Kind::If { condition, accept, reject } => {
+                found.push(condition.clone());
+                conditions(body, core::slice::from_ref(accept), found);
+                if let Some(reject) = reject {
+                    conditions(body, core::slice::from_ref(reject), found);
+                }
+            }
+            Kind::Simple if body.word(at.start) == "return" => found.push(at.start + 1..at.end - 1),
+            Kind::Simple | Kind::Whole => {}
+        }
+    }
 }
 
 /// What stands before the body of a function.

@@ -19,6 +19,8 @@ pub(super) fn put_in(file: &File<'_, '_>, asked: &mut Options) -> Vec<(Range<usi
     let reached: BTreeSet<String> = reached.into_iter().map(str::to_owned).collect();
     let mut edits = Vec::new();
     let mut declared = BTreeMap::new();
+    // Looked for once a name, since a file may have many words.
+    let mut known: BTreeMap<&str, bool> = BTreeMap::new();
     for at in 0..file.tokens.len() {
         let word = file.word(at);
         let is_member = at > 0 && file.word(at - 1) == ".";
@@ -26,7 +28,7 @@ pub(super) fn put_in(file: &File<'_, '_>, asked: &mut Options) -> Vec<(Range<usi
             || is_member
             || file.in_directive[at]
             || !reached.contains(word)
-            || is_declared(file, word)
+            || *known.entry(word).or_insert_with(|| is_declared(file, word))
         {
             continue;
         }

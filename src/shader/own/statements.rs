@@ -231,13 +231,16 @@ fn effects<'t>(
     in_directive: &[bool],
     is_wgsl: bool,
 ) -> BTreeMap<&'t str, BTreeSet<&'t str>> {
-    let names: BTreeSet<usize> = tokens.iter().filter_map(|token| token.function).collect();
+    let mut bodies: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    for (at, token) in tokens.iter().enumerate().filter(|&(at, _)| !in_directive[at]) {
+        if let Some(name) = token.function {
+            bodies.entry(name).or_default().push(at);
+        }
+    }
     let word = |at: usize| &text[tokens[at].at.clone()];
     let mut found: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
     let mut called: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
-    for name in names {
-        let at =
-            (0..tokens.len()).filter(|&at| tokens[at].function == Some(name) && !in_directive[at]).collect();
+    for (name, at) in bodies {
         let body = Body { text, tokens, at, writers: BTreeSet::new(), effects: BTreeMap::new(), is_wgsl };
         let all = 0..body.at.len();
         found.entry(word(name)).or_default().extend(body.assigned(all.clone()));
