@@ -90,8 +90,8 @@ fn language(file: &ShaderFile<'_>) -> Result<Language, Failure> {
         Some(Language::SpirV) => {
             refused("--mend changes a text, and SPIR-V has none: mend the GLSL or HLSL that it was made of")
         }
-        Some(Language::Hlsl) => refused(
-            "--mend reads GLSL and WGSL; HLSL is tried, and its slips are told, by `check` without it",
+        Some(Language::Hlsl | Language::Slang) => refused(
+            "--mend reads GLSL and WGSL; HLSL and Slang are tried, and their slips are told, by `check` without it",
         ),
         Some(Language::Quoted) => refused(
             "--mend reads files of GLSL and WGSL alone: copy the function out of the program into one",

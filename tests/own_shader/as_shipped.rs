@@ -154,7 +154,9 @@ fn the_threshold_of_any_other_test_is_found_by_halving() {
     assert_eq!(threshold(&shader, AT), WANTED);
     assert_eq!(shader.notes, ["`test` is a test of `k`: its threshold is found by halving"]);
     // All are kept, none are, and those between two thresholds.
-    for (comparison, wanted) in [("alpha >= 0.0 * t", 0.0), ("alpha > 1.0 + t", 1.0 + f32::EPSILON)] {
+    for (comparison, wanted) in
+        [("2.0 * alpha >= 0.0 * t", 0.0), ("2.0 * alpha > 2.0 + t", 1.0 + f32::EPSILON)]
+    {
         let text = format!(
             "{HASH}void test(float alpha, vec3 pos) {{ float t = hash(pos); bool keep = {comparison}; if (!keep) discard; }}"
         );

@@ -651,15 +651,72 @@ float4 main(Varyings i) : SV_Target { clip(lost(i.clip.xy) - threshold(i.world, 
 
 #[test]
 fn exported_hlsl_is_the_same_threshold() {
-    if !reads_hlsl() {
+    for (language, is_read) in [(Language::Hlsl, reads_hlsl()), (Language::Slang, reads_slang())] {
+        if !is_read {
+            continue;
+        }
+        for variant in [Variant::Isotropic, Variant::Anisotropic] {
+            let of = |written: export::Language, language| {
+                let bytes = export(Robust::new(variant), written).unwrap().into_bytes();
+                let shader = parse(written.name(), language, &bytes, &options(&[]));
+                threshold(&shader.unwrap_or_else(|error| panic!("{error}")), [0.3, -12.5, 1.0e3])
+            };
+            assert_eq!(of(export::Language::Hlsl, language), of(export::Language::Wgsl, Language::Wgsl));
+        }
+    }
+}
+
+/// Whether Slang can be read here; with `HASHED_ALPHA_REQUIRE=slang` it has to be.
+fn reads_slang() -> bool {
+    let required = std::env::var("HASHED_ALPHA_REQUIRE").is_ok_and(|list| list.contains("slang"));
+    required || std::process::Command::new("slangc").arg("-v").output().is_ok()
+}
+
+#[test]
+fn slang_is_read_by_way_of_wgsl() {
+    if !reads_slang() {
         return;
     }
-    for variant in [Variant::Isotropic, Variant::Anisotropic] {
-        let of = |language: export::Language, read| {
-            let bytes = export(Robust::new(variant), language).unwrap().into_bytes();
-            let shader = parse(language.name(), read, &bytes, &options(&[]));
-            threshold(&shader.unwrap_or_else(|error| panic!("{error}")), [0.3, -12.5, 1.0e3])
-        };
-        assert_eq!(of(export::Language::Hlsl, Language::Hlsl), of(export::Language::Wgsl, Language::Wgsl));
+    let text = "import size;
+static const float K = 0.25;
+cbuffer Params { float strength; float4x4 unused; };
+uniform float more;
+Texture2D map; SamplerState state;
+interface INoise { static float of(float3 p); };
+struct Ramp : INoise { static float of(float3 p) { return frac(p.x) * strength; } };
+float generic<N : INoise>(float3 p) { let size = longer(p); return N.of(p) + size - 0.25 - K + more; }
+float threshold(float3 positionWS) { return generic<Ramp>(positionWS); }
+struct Varyings { float4 clip : SV_Position; float3 world : POSITION0; float2 uv : TEXCOORD; };
+[shader(\"fragment\")]
+float4 psMain(Varyings i) : SV_Target {
+    float4 c = map.Sample(state, i.uv);
+    if (c.a < threshold(i.world)) discard;
+    return c;
+}
+void keep(Varyings i, inout float alpha, bool isOn) { if (isOn && alpha < threshold(i.world)) alpha = 0; }
+";
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/own_shader/slang");
+    let slang = |text: &str, function: &str, settings: &[(&str, &str)]| {
+        let options =
+            Options { include: vec![folder.clone()], function: function.to_owned(), ..options(settings) };
+        parse("own.slang", Language::Slang, text.as_bytes(), &options).map_err(|error| error.to_string())
+    };
+    let set = [("strength", "0.5"), ("more", "0.25")];
+    for function in ["threshold", "psMain", "keep"] {
+        let shader = slang(text, function, &set).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(threshold(&shader, [0.375, 0.0, 0.0]), 0.1875, "{function}");
+    }
+    for (wrong, wanted) in [
+        (text.replace("frac(p.x)", "frac(q.x)"), "own.slang:7:1: "),
+        (text.replace("import size", "import missing"), "own.slang:1:1: "),
+        (text.replace("import size", "import missing"), "; -I DIR names a folder to look in"),
+        (text.replace("float threshold(", "float other("), "functions are generic, other, psMain, keep"),
+        (
+            text.to_owned(),
+            "own.slang: `strength` of uniform block `Params` has no value: --set Params.strength=VALUE",
+        ),
+    ] {
+        let error = slang(&wrong, "threshold", &[]).unwrap_err();
+        assert!(error.contains(wanted), "{error}");
     }
 }

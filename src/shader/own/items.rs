@@ -96,8 +96,18 @@ fn declared<'t>(text: &'t str, tokens: &[Token], in_directive: &[bool], range: R
 }
 
 /// What is always kept: it says how the rest is to be read.
-const OF_THE_WHOLE: [&str; 6] =
-    ["precision", "enable", "requires", "diagnostic", "shader_type", "render_mode"];
+const OF_THE_WHOLE: [&str; 9] = [
+    "precision",
+    "enable",
+    "requires",
+    "diagnostic",
+    "shader_type",
+    "render_mode",
+    // Of Slang.
+    "import",
+    "using",
+    "extension",
+];
 
 /// Blanks all that `function` and the names `kept` do not come to, byte for byte, but for directives. Where there is no function of that
 /// name, only `main` goes.

@@ -12,6 +12,8 @@ pub enum Language {
     Glsl,
     /// HLSL: `.hlsl`, `.hlsli`; read by glslang.
     Hlsl,
+    /// Slang: `.slang`; read by `slangc`.
+    Slang,
     /// WGSL or GLSL in a string literal of a program: `.js`, `.mjs`, `.ts`, `.tsx`, `.py`, `.h`, `.hpp`, `.cpp`; a file that
     /// defines the function outside of all literals is GLSL.
     Quoted,
@@ -20,7 +22,7 @@ pub enum Language {
 }
 
 /// The endings that are known, as a message lists them.
-pub const ENDINGS: &str = ".wgsl, .glsl, .frag, .vert, .comp, .fs, .vs, .fsh, .vsh, .glslh, .inc, .gdshader, .gdshaderinc, .hlsl, .hlsli, .spv, and those of programs that \
+pub const ENDINGS: &str = ".wgsl, .glsl, .frag, .vert, .comp, .fs, .vs, .fsh, .vsh, .glslh, .inc, .gdshader, .gdshaderinc, .hlsl, .hlsli, .slang, .spv, and those of programs that \
                            hold a shader between quotes, .js, .mjs, .ts, .tsx, .py, .h, .hpp, .cpp";
 
 /// Says what to hand over in the place of a file that is known, and cannot be read.
@@ -28,7 +30,6 @@ pub const ENDINGS: &str = ".wgsl, .glsl, .frag, .vert, .comp, .fs, .vs, .fsh, .v
 pub fn instead_of(path: &Path) -> Option<&'static str> {
     match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
         "metal" => Some("MSL is not read: hand over the same function in HLSL, GLSL or WGSL"),
-        "slang" => Some("Slang is not read: `slangc -target wgsl` or `-target spirv` makes a file that is"),
         "usf" | "ush" | "fx" | "fxh" | "shader" | "cginc" | "hlslinc" | "surfshader" => Some(
             "it needs what its engine puts around it: copy the function, and what it calls, into a file .hlsl",
         ),
@@ -45,6 +46,7 @@ impl Language {
             "glsl" | "frag" | "vert" | "comp" | "fs" | "vs" | "fsh" | "vsh" | "glslh" | "inc"
             | "gdshader" | "gdshaderinc" => Some(Self::Glsl),
             "hlsl" | "hlsli" => Some(Self::Hlsl),
+            "slang" => Some(Self::Slang),
             "js" | "mjs" | "ts" | "tsx" | "py" | "h" | "hpp" | "cpp" => Some(Self::Quoted),
             "spv" => Some(Self::SpirV),
             _ => None,

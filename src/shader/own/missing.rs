@@ -1,7 +1,7 @@
 //! Names that a file reads and does not declare, since its engine declares them: what the user says of them, or what their name says,
 //! is put in.
 
-use super::alpha_test::{Dialect, File};
+use super::head::{Dialect, File};
 use super::items::reached;
 use super::mapping::meaning_of;
 use super::options::Options;

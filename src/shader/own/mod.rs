@@ -9,12 +9,15 @@ mod arguments;
 mod bisection;
 mod blocks;
 mod body;
+mod comparisons;
+mod compiler;
 mod conditions;
 mod derivative;
 mod directives;
 mod error;
 mod front;
 mod glsl;
+mod head;
 mod hlsl;
 mod includes;
 mod invalid;
@@ -29,9 +32,11 @@ mod pointers;
 mod quads;
 mod quoted;
 mod reduce;
+mod rewriting;
 mod scan;
 mod setting;
 mod signature;
+mod slang;
 mod sources;
 mod statements;
 mod unit;
@@ -48,9 +53,9 @@ pub use setting::{Constant, Value};
 pub use signature::{Binding, Input};
 
 use super::assemble::{SAMPLE_INDEX, ShaderOptions, assemble};
-use alpha_test::Dialect;
 use error::Fault;
 use front::Front;
+use head::Dialect;
 use isolated::isolated;
 use naga::valid::ModuleInfo;
 use naga::{Module, Span};
@@ -189,7 +194,7 @@ fn read_text(
     let mut options = options.clone();
     let (text, dialect) = match language {
         Language::Wgsl => (text.to_owned(), Dialect::Wgsl),
-        Language::Hlsl => (text.to_owned(), Dialect::Hlsl),
+        Language::Hlsl | Language::Slang => (text.to_owned(), Dialect::Hlsl),
         Language::Glsl | Language::SpirV => (text.to_owned(), Dialect::Glsl),
         Language::Quoted => {
             let uncovered = quoted::uncovered(text, &mut options.function)?;
@@ -207,6 +212,7 @@ fn read_text(
     let front = match dialect {
         Dialect::Wgsl => wgsl::read(&text, &asked),
         Dialect::Glsl => glsl::read(&text, &asked, prelude),
+        Dialect::Hlsl if language == Language::Slang => slang::read(&text, &asked, folder),
         Dialect::Hlsl => hlsl::read(&text, &asked),
     }?;
     if dialect == Dialect::Hlsl {

@@ -69,7 +69,8 @@ pub(super) fn tokens(text: &str) -> Result<Vec<Token>, Fault> {
                         !is_attribute && !matches!(word(name), "layout" | "register" | "packoffset")
                     };
                     // The name stays where an attribute of the result follows.
-                    named = tokens.len().checked_sub(1).filter(is_name).or(named);
+                    let before = tokens.len().checked_sub(1);
+                    named = before.map(|last| before_types(last, word)).filter(is_name).or(named);
                 }
                 parentheses += 1;
             }
@@ -114,6 +115,16 @@ pub(super) fn tokens(text: &str) -> Result<Vec<Token>, Fault> {
         start += length;
     }
     Ok(tokens)
+}
+
+/// The place of a name behind which parameters of types may stand, as in `f<T>`; any other place stays.
+fn before_types<'t>(last: usize, word: impl Fn(usize) -> &'t str) -> usize {
+    if word(last) != ">" {
+        return last;
+    }
+    let open =
+        (0..last).rev().take_while(|&at| !matches!(word(at), ";" | "{" | "}")).find(|&at| word(at) == "<");
+    open.and_then(|open| open.checked_sub(1)).unwrap_or(last)
 }
 
 /// The bytes up to the first `end`, or all.

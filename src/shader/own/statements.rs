@@ -170,6 +170,21 @@ impl<'t> Body<'t> {
         range.filter(move |&at| is_name(self.word(at)) && is_called(at)).map(|at| self.word(at))
     }
 
+    /// What the variable at a place was given as it was declared, where it is never given another value.
+    pub fn given(&self, place: usize) -> Option<Range<usize>> {
+        let name = self.word(place);
+        let is_it = |at: &usize| self.word(*at) == name && (*at == 0 || self.word(at - 1) != ".");
+        let mut all = (0..self.at.len()).filter(is_it).filter(|&at| self.assigned(at..at + 1).contains(name));
+        let first = all.next().filter(|&first| is_name(name) && first < place && all.next().is_none())?;
+        // `bool keep = ...`, `let keep: bool = ...`.
+        let sign = if self.is_wgsl && self.word(first + 1) == ":" { first + 3 } else { first + 1 };
+        if self.word(sign) != "=" || first == 0 || !is_name(self.word(first - 1)) {
+            return None;
+        }
+        let value = sign + 1..self.end_of_simple(sign) - 1;
+        (!value.is_empty()).then_some(value)
+    }
+
     /// The names that a range may give a value to.
     pub fn assigned(&self, range: Range<usize>) -> BTreeSet<&'t str> {
         let mut found = BTreeSet::new();
@@ -217,6 +232,34 @@ impl<'t> Body<'t> {
         }
         found
     }
+}
+
+/// The names that a value comes from, and the statements that make it.
+pub(super) fn slice<'t>(
+    body: &Body<'t>,
+    path: &[(&[Statement], usize)],
+    value: &Range<usize>,
+) -> (BTreeSet<&'t str>, Vec<Range<usize>>) {
+    let mut needed: BTreeSet<_> = body.names(value.clone()).collect();
+    let mut kept = Vec::new();
+    for &(list, index) in path.iter().rev() {
+        for statement in list[..index].iter().rev() {
+            if !body.assigned(statement.at.clone()).is_disjoint(&needed) {
+                needed.extend(body.all_names(statement.at.clone()));
+                kept.push(statement.at.clone());
+            }
+        }
+    }
+    (needed, kept)
+}
+
+/// How many brackets are open at a place, counted from another.
+pub(super) fn depth(body: &Body<'_>, from: usize, at: usize) -> usize {
+    (from..at).fold(0_usize, |depth, at| match body.word(at) {
+        "(" | "[" | "{" => depth + 1,
+        ")" | "]" | "}" => depth.saturating_sub(1),
+        _ => depth,
+    })
 }
 
 /// Whether a word is a name or a keyword.

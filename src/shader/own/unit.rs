@@ -1,10 +1,11 @@
 //! What is read of a file before its parser: the files that it includes, the branches of an engine's conditions, the function that
 //! is meant, and its test of an alpha.
 
-use super::alpha_test::{Dialect, File, rewritten};
+use super::alpha_test::rewritten;
 use super::conditions::{dead, left_out, needed};
 use super::directives::{Directive, directives, functions, in_directives};
 use super::error::Fault;
+use super::head::{Dialect, File};
 use super::includes::Includes;
 use super::items::{items, reached};
 use super::missing::put_in;
