@@ -93,10 +93,9 @@ fn language(file: &ShaderFile<'_>) -> Result<Language, Failure> {
         Some(Language::Hlsl | Language::Slang) => refused(
             "--mend reads GLSL and WGSL; HLSL and Slang are tried, and their slips are told, by `check` without it",
         ),
-        Some(Language::Quoted) => refused(
-            "--mend reads files of GLSL and WGSL alone: copy the function out of the program into one",
-        ),
-        None => refused("this is no file of a shader"),
+        Some(Language::Quoted | Language::Any) | None => {
+            refused("--mend reads files of GLSL and WGSL alone: copy the function into one")
+        }
     }
 }
 

@@ -18,7 +18,11 @@ pub struct ShaderFile<'a> {
 impl<'a> ShaderFile<'a> {
     /// Reads a word; nothing where it does not name a file of a shader.
     pub fn of(word: &'a str) -> Option<Self> {
-        let is_shader = |path: &str| Language::of(Path::new(path)).is_some();
+        // A file of any other ending may be one, too.
+        let is_shader = |path: &str| {
+            let path = Path::new(path);
+            Language::of(path).is_some() || path.extension().is_some() && path.is_file()
+        };
         if is_shader(word) {
             return Some(Self { path: word, function: None });
         }

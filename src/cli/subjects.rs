@@ -8,7 +8,7 @@ use hashed_alpha::check::shaders;
 use hashed_alpha::check::{Frames, Subject, subject::Precision};
 use hashed_alpha::scene::{Fragment, Scene};
 use hashed_alpha::shader::interpreter::DeviceModel;
-use hashed_alpha::shader::own::{self, ENDINGS, OwnShader};
+use hashed_alpha::shader::own::{self, OwnShader};
 use hashed_alpha::shader::spelling::likely;
 use hashed_alpha::threshold::hash::{HashKind, UnknownName};
 use hashed_alpha::threshold::pipeline::Pipeline;
@@ -139,7 +139,8 @@ fn unknown(word: &str) -> Failure {
     let likely = likely(word, &known);
     Failure::Usage(format!(
         "unknown subject `{word}`.{likely} Known are paper:isotropic, paper:anisotropic, robust:isotropic, \
-         robust:anisotropic, each with gpu: before it too, hash: with the name of a hash behind it, and files that end in {ENDINGS}"
+         robust:anisotropic, each with gpu: before it too, hash: with the name of a hash behind it, and files of shaders, as \
+         my.glsl, or of programs that hold one, as my.js"
     ))
 }
 

@@ -5,10 +5,10 @@ use super::comparisons::{Comparison, comparisons, only_minus};
 use super::error::Fault;
 use super::head::{Dialect, File, Head};
 use super::items::{Item, reached};
-use super::mapping::is_alpha;
 use super::options::{ALPHA, Options};
 use super::rewriting::{Rewritten, Test};
 use super::statements::{Body, Kind, Statement, depth, is_name, slice};
+use super::usual::is_alpha;
 use core::ops::Range;
 use std::collections::HashSet;
 

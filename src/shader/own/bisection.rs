@@ -8,8 +8,9 @@
 use super::body::Body;
 use super::error::Fault;
 use super::invalid::called_by;
-use super::mapping::{is_alpha, meaning_of, reached_from};
 use super::options::{ALPHA, Options};
+use super::usual::{is_alpha, meaning_of};
+use super::waiting::reached_from;
 use naga::{
     AddressSpace, BinaryOperator, Block, Expression, Function, FunctionArgument, FunctionResult,
     GlobalVariable, Handle, Literal, LocalVariable, Module, Scalar, ScalarKind, Span, Statement, SwitchCase,

@@ -3,9 +3,9 @@
 
 use super::body::Body;
 use super::error::Fault;
-use super::mapping;
 use super::options::Options;
 use super::scan::Token;
+use super::usual;
 use naga::{
     Arena, Expression, Function, FunctionArgument, FunctionResult, GlobalVariable, Handle, Module, Span,
     Statement, Type, TypeInner, VectorSize,
@@ -110,7 +110,7 @@ pub(super) fn position<'t>(text: &'t str, tokens: &[Token], asked: &Options) -> 
     let parameters: Vec<_> = parameters.filter(|&at| at > 1).map(named).collect();
     let is_input = |at: &usize| tokens[*at].function.is_none() && matches!(word(at - 1), "in" | "varying");
     let inputs: Vec<_> = (1..tokens.len()).filter(|&at| is_vector(at)).filter(is_input).map(named).collect();
-    mapping::position_among(&parameters, asked).or_else(|| mapping::position_among(&inputs, asked))
+    usual::position_among(&parameters, asked).or_else(|| usual::position_among(&inputs, asked))
 }
 
 /// Refuses the derivatives that are left in a module of nothing but what the function on trial comes to, beside something that

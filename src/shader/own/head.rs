@@ -2,10 +2,10 @@
 
 use super::directives::Directive;
 use super::items::Item;
-use super::mapping::is_alpha;
 use super::options::{ALPHA, Options};
 use super::scan::Token;
 use super::statements::is_name;
+use super::usual::is_alpha;
 use core::ops::Range;
 
 /// How functions and conditions are written.

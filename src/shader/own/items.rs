@@ -14,7 +14,7 @@ pub(super) struct Item<'t> {
     /// The token of its name where it is a function with a body.
     pub function: Option<usize>,
     /// What others call it, or parts of it.
-    names: Vec<&'t str>,
+    pub names: Vec<&'t str>,
 }
 
 /// Cuts a text into its items.
@@ -59,7 +59,9 @@ fn declared<'t>(text: &'t str, tokens: &[Token], in_directive: &[bool], range: R
     let word = |index: usize| at.get(index).map_or("", |&at| &text[tokens[at].at.clone()]);
     let open = (0..at.len()).find(|&index| word(index) == "{" && tokens[at[index]].parentheses == 0);
     let close = (0..at.len()).rev().find(|&index| word(index) == "}");
-    let is_value = open.is_some_and(|open| (0..open).any(|index| word(index) == "="));
+    // `layout(binding = 1)` gives no value.
+    let is_given = |index: usize| word(index) == "=" && tokens[at[index]].parentheses == 0;
+    let is_value = open.is_some_and(|open| (0..open).any(is_given));
     let is_structure = (0..open.unwrap_or(0)).any(|index| word(index) == "struct");
     // `} name;`
     let has_instance = close.is_some_and(|close| is_name(word(close + 1)));
@@ -205,7 +207,7 @@ mod tests {
 precision highp float;
 struct S { float x; };
 struct T { Unknown y; } t;
-layout(std140) uniform Block { vec3 eye; };
+layout(std140, binding = 1) uniform Block { vec3 eye; };
 layout(std140) uniform Named { vec3 pupil; } named;
 uniform Lights lights[4];
 const float K = 2.0, L = 3.0;

@@ -3,11 +3,11 @@
 
 use super::head::{Dialect, File};
 use super::items::reached;
-use super::mapping::meaning_of;
 use super::options::Options;
 use super::signature::type_of;
 use super::sources::Put;
 use super::statements::is_name;
+use super::usual::meaning_of;
 use core::ops::Range;
 use naga::TypeInner;
 use std::collections::{BTreeMap, BTreeSet, HashSet};

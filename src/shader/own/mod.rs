@@ -12,6 +12,7 @@ mod body;
 mod comparisons;
 mod compiler;
 mod conditions;
+mod definitions;
 mod derivative;
 mod directives;
 mod error;
@@ -34,18 +35,22 @@ mod quoted;
 mod reduce;
 mod rewriting;
 mod scan;
+mod sections;
 mod setting;
 mod signature;
 mod slang;
 mod sources;
 mod statements;
 mod unit;
+mod usual;
 mod variables;
+mod waiting;
 mod wgsl;
+mod wrapping;
 
 pub use error::{Place, ShaderError};
 pub use isolated::READER;
-pub use language::{ENDINGS, Language, instead_of};
+pub use language::{Language, instead_of};
 pub use mapping::Taken;
 pub use options::{LARGEST_FILE, Options, THRESHOLD};
 pub use scan::Token;
@@ -96,13 +101,12 @@ pub struct OwnShader {
 ///
 /// # Errors
 ///
-/// [`ShaderError`]: the file cannot be read, is empty, larger than [`LARGEST_FILE`] or of an unknown kind; and those of
+/// [`ShaderError`]: the file cannot be read, is empty, or larger than [`LARGEST_FILE`]; and those of
 /// [`parse`].
 pub fn read(path: &Path, options: &Options) -> Result<OwnShader, ShaderError> {
     let file = path.display().to_string();
     let fail = |message: String| ShaderError { file: file.clone(), place: None, message };
-    let language =
-        Language::of(path).ok_or_else(|| fail(format!("the ending of the name is none of {ENDINGS}")))?;
+    let language = Language::of(path).unwrap_or(Language::Any);
     let mut bytes = Vec::new();
     // One byte more than is allowed tells a file that is too large, also where it has no length of its own.
     let opened = std::fs::File::open(path).map_err(|error| fail(error.to_string()))?;
@@ -191,24 +195,29 @@ fn read_text(
     let (text, fault) = decoded(bytes);
     *sources = Sources::of(file, text);
     fault?;
-    let mut options = options.clone();
-    let (text, dialect) = match language {
-        Language::Wgsl => (text.to_owned(), Dialect::Wgsl),
-        Language::Hlsl | Language::Slang => (text.to_owned(), Dialect::Hlsl),
-        Language::Glsl | Language::SpirV => (text.to_owned(), Dialect::Glsl),
-        Language::Quoted => {
-            let uncovered = quoted::uncovered(text, &mut options.function)?;
-            let is_wgsl = match quoted::defined(&uncovered, &options.function) {
-                Some(word) => word == "fn",
-                None => quoted::functions(&uncovered)
-                    .iter()
-                    .any(|name| quoted::defined(&uncovered, name) == Some("fn")),
-            };
-            (uncovered, if is_wgsl { Dialect::Wgsl } else { Dialect::Glsl })
-        }
+    let (asked, mut options) = (options, options.clone());
+    let (text, written) = sections::uncovered(text, &options.function);
+    let text =
+        if language == Language::Quoted { quoted::uncovered(&text, &mut options.function)? } else { text };
+    // Which function is meant may have been told by the quotes that it stands between.
+    let is_told = options.function != asked.function;
+    let dialect = match language {
+        Language::Wgsl => Dialect::Wgsl,
+        Language::Hlsl | Language::Slang => Dialect::Hlsl,
+        Language::Glsl | Language::SpirV => Dialect::Glsl,
+        Language::Quoted | Language::Any => match written.or_else(|| Language::told_by(&text)) {
+            Some(Language::Wgsl) => Dialect::Wgsl,
+            Some(Language::Hlsl) => Dialect::Hlsl,
+            Some(_) => Dialect::Glsl,
+            None if language == Language::Quoted => Dialect::Glsl,
+            None => return Err(Fault::new("no word of it is one of GLSL, HLSL or WGSL alone")),
+        },
     };
     let unit = unit::unit(text, dialect, &options, folder, sources)?;
-    let Unit { text, asked, named, notes, pixels } = unit;
+    let Unit { text, asked, named, mut notes, pixels } = unit;
+    if is_told {
+        notes.insert(0, unit::is_taken(&options.function));
+    }
     let front = match dialect {
         Dialect::Wgsl => wgsl::read(&text, &asked),
         Dialect::Glsl => glsl::read(&text, &asked, prelude),

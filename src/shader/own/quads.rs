@@ -9,9 +9,9 @@
 use super::body::Body;
 use super::derivative;
 use super::invalid::called_by;
-use super::mapping::reached_from;
 use super::signature;
 use super::variables::written_by;
+use super::waiting::reached_from;
 use naga::front::Typifier;
 use naga::proc::ResolveContext;
 use naga::{

@@ -1,5 +1,5 @@
-//! Shaders in the texts of other programs: between the backticks of JavaScript and TypeScript, the quotes of Python, the raw
-//! strings of C++.
+//! Shaders in the texts of other programs: between the backticks of JavaScript, TypeScript and Go, the quotes of Python, Java and Swift,
+//! the raw strings of C++, Rust and C#, the long brackets of Lua, the `<script>` of a page.
 
 use super::error::Fault;
 use super::options::THRESHOLD;
@@ -165,10 +165,12 @@ fn literals(text: &str) -> Vec<Literal> {
                 ends
             };
             let end = rest.bytes().skip(1).position(ends).map_or(rest.len(), |at| at + 1);
-            if rest.as_bytes().get(end) == Some(&quote) {
+            let is_closed = rest.as_bytes().get(end) == Some(&quote);
+            if is_closed {
                 found.push(Literal { at: start + 1..start + end, whole: start..start + end + 1, is_line });
             }
-            start += (end + 1).min(rest.len());
+            // A quote alone is a lifetime of Rust, or an apostrophe.
+            start += if is_closed || quote != b'\'' { (end + 1).min(rest.len()) } else { 1 };
         } else {
             start += rest.chars().next().map_or(1, char::len_utf8);
         }
@@ -176,8 +178,33 @@ fn literals(text: &str) -> Vec<Literal> {
     found
 }
 
-/// The length of the beginning of a raw string of C++, `R"name(`, and its end.
+/// The length of the beginning of a literal that has no escapes, and its end.
 fn raw(text: &str) -> Option<(usize, String)> {
+    // C#.
+    if text.starts_with("@\"") {
+        return Some((2, "\"".to_owned()));
+    }
+    // What a page keeps for its program, as `<script type="x-shader/x-fragment">`.
+    if text.starts_with("<script") && text.contains("</script>") {
+        let end = text.find('>')? + 1;
+        return text[..end].contains("shader").then(|| (end, "</script>".to_owned()));
+    }
+    // Rust, with as many signs as it takes; Lua, whose brackets may be those of an array elsewhere.
+    let marked = |open: &str, mark: char, second: char| {
+        let rest = text.strip_prefix(open)?;
+        let marks: String = rest.chars().take_while(|&c| c == mark).collect();
+        rest[marks.len()..].starts_with(second).then_some(marks)
+    };
+    if let Some(marks) = marked("r", '#', '"').filter(|_| !text.starts_with("r\"\"\"")) {
+        return Some((marks.len() + 2, format!("\"{marks}")));
+    }
+    if let Some(marks) = marked("[", '=', '[') {
+        let (open, close) = (marks.len() + 2, format!("]{marks}]"));
+        let is_text =
+            text.split_once(&close).is_some_and(|(text, _)| !text.contains(['`', '"']) && text.contains('{'));
+        return is_text.then_some((open, close));
+    }
+    // C++.
     let name = text.strip_prefix("R\"")?.split_once('(')?.0;
     let is_name = name.len() <= 16 && !name.contains(|c: char| c.is_whitespace() || c == '"' || c == ')');
     is_name.then(|| (name.len() + 3, format!("){name}\"")))
@@ -216,6 +243,10 @@ mod tests {
             "// don't\nexport default /* glsl */ `\nfloat f(vec3 p) { return 1.0; }\n`; const b = 'x';",
             "# a f(b)\nSHADER = r\"\"\"\nfloat f(vec3 p) { return 1.0; }\n\"\"\"\nOTHER = 'c'",
             "const char* x = R\"glsl(\nfloat f(vec3 p) { return 1.0; }\n)glsl\"; char y = 'z';",
+            "const X: &'static str = r#\"\nfloat f(vec3 p) { return 1.0; }\n\"#; const Y: char = 'z';",
+            "local x = [[\nfloat f(vec3 p) { return 1.0; }\n]] y = a[b[1]]",
+            "const int[,] a = [[1, 2], [3, 4]]; string x = @\"\nfloat f(vec3 p) { return 1.0; }\n\"; var y = \"z\";",
+            "<p>it's</p><script type=\"x-shader\">\nfloat f(vec3 p) { return 1.0; }\n</script><script>g()</script>",
         ] {
             assert_eq!(left(text), "float f(vec3 p) { return 1.0; }", "{text}");
         }

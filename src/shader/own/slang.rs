@@ -19,6 +19,9 @@ use std::path::Path;
 /// The program of Slang.
 const COMPILER: &str = "slangc";
 
+/// What the compiler says of a file that is nowhere.
+const MISSING: &str = "cannot open file";
+
 /// The entry point that calls the function: what nothing calls is left out.
 const ENTRY: &str = "hashed_alpha_entry";
 
@@ -33,7 +36,23 @@ pub(super) fn read(text: &str, asked: &Options, folder: Option<&Path>) -> Result
     let head = head(text, &tokens, &asked.function)?;
     let (prepared, defines) = glsl::reached(text, &tokens, asked)?;
     let folders = folder.into_iter().chain(asked.include.iter().map(AsRef::as_ref));
-    let wgsl = compiled(&(prepared + &entry(&asked.function, &head)), &defines, folders, text)?;
+    let folders: Vec<_> = folders.collect();
+    let mut prepared = prepared + &entry(&asked.function, &head);
+    // What an engine has elsewhere is missed only where something of it is.
+    let mut missing = None;
+    let wgsl = loop {
+        let fault = match compiled(&prepared, &defines, &folders, text) {
+            Ok(wgsl) => break wgsl,
+            Err(fault) => fault,
+        };
+        let import = fault.at.clone().filter(|_| fault.message.contains(MISSING));
+        let Some(import) = import.filter(|at| prepared[at.clone()].contains("import")) else {
+            let before = missing.map_or(String::new(), |missing: String| format!("; {missing}"));
+            return Err(Fault { message: fault.message + &before, ..fault });
+        };
+        prepared.replace_range(import.clone(), &" ".repeat(import.len()));
+        missing.get_or_insert(fault.message);
+    };
     let function = asked.function.clone();
     let front = isolated(move || module(&wgsl, &function))?;
     let defined = defines.into_iter().map(|(name, _)| name).collect();
@@ -72,10 +91,10 @@ hashed_alpha_found[0] = found; return float4(0, 0, 0, 0); }}
 }
 
 /// Compiles a prepared text to WGSL; `text` is what the user wrote.
-fn compiled<'p>(
+fn compiled(
     prepared: &str,
     defines: &[(String, String)],
-    folders: impl Iterator<Item = &'p Path>,
+    folders: &[&Path],
     text: &str,
 ) -> Result<String, Fault> {
     let io = |error| not_handed("Slang", &error);
@@ -88,7 +107,7 @@ fn compiled<'p>(
     arguments.push(module.clone().into());
     arguments.extend(defines.iter().map(|(name, value)| OsString::from(format!("-D{name}={value}"))));
     for folder in folders {
-        let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+        let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { *folder };
         arguments.extend([OsString::from("-I"), folder.into()]);
     }
     let missing = format!(
@@ -111,8 +130,8 @@ fn said(output: &str, text: &str) -> Fault {
     let mut lines = output.lines().skip_while(|line| !line.contains("error"));
     let Some(first) = lines.next() else { return Fault::new(format!("{COMPILER} fails: {}", output.trim())) };
     let advice = |message: &str| {
-        let is_missing = message.contains("cannot open") || message.contains("not found");
-        if is_missing { format!("{message}; -I DIR names a folder to look in") } else { message.to_owned() }
+        let is_missing = message.contains(MISSING);
+        if is_missing { format!("{message} -I DIR names a folder to look in") } else { message.to_owned() }
     };
     if let Some((place, message)) = first.split_once("): error ") {
         let line = place.rsplit('(').next().and_then(|line| line.split(',').next()?.parse().ok());

@@ -3,6 +3,7 @@
 
 use super::alpha_test::rewritten;
 use super::conditions::{dead, left_out, needed};
+use super::definitions::wanted;
 use super::directives::{Directive, directives, functions, in_directives};
 use super::error::Fault;
 use super::head::{Dialect, File};
@@ -55,10 +56,7 @@ pub(super) fn unit(
     }
     cut(&text, dialect, |file| {
         if let Some(name) = meant(file, &asked) {
-            let note = format!(
-                "there is no function `{THRESHOLD}`, and `{name}` is taken for it (--function names another)"
-            );
-            notes.push(note);
+            notes.push(is_taken(&name));
             asked.function = name;
         }
         refuse_absent(file, &asked)?;
@@ -69,6 +67,7 @@ pub(super) fn unit(
         let is_read = |&at: &usize| needed(file.directives, at).is_empty();
         let place = if places.iter().any(is_read) { None } else { places.first().copied() };
         define(place, file.directives, &mut asked, &mut notes);
+        define_reached(file, &mut asked, &mut notes);
         Ok(())
     })?;
     if dialect == Dialect::Wgsl {
@@ -111,7 +110,12 @@ pub(super) fn unit(
         note += &format!("; it is compared in line {}, too, which is left out", lines.join(", "));
     }
     notes.push(note);
-    Ok(Unit { text: sources.exchange(&blanked, test.edits), asked, named, notes, pixels })
+    let text = sources.exchange(&blanked, test.edits);
+    cut(&text, dialect, |file| {
+        define_reached(file, &mut asked, &mut notes);
+        Ok(())
+    })?;
+    Ok(Unit { text, asked, named, notes, pixels })
 }
 
 /// Cuts a text into words, lines of a preprocessor and items, and looks at them.
@@ -217,6 +221,16 @@ fn define(at: Option<usize>, lines: &[Directive<'_>], asked: &mut Options, notes
     }
 }
 
+/// Sets what has to be defined so that what the function comes to is read.
+fn define_reached(file: &File<'_, '_>, asked: &mut Options, notes: &mut Vec<String>) {
+    for (behind, macros) in wanted(file, &asked.function, &asked.settings) {
+        for (name, value) in macros {
+            notes.push(format!("`{name}` is defined as {value}, since `{behind}` stands behind it"));
+            asked.settings.insert(name, value);
+        }
+    }
+}
+
 /// Refuses a function that is nowhere, before anything else of the file is looked at; a macro may still make it.
 fn refuse_absent(file: &File<'_, '_>, asked: &Options) -> Result<(), Fault> {
     let is_there = (0..file.tokens.len()).any(|at| file.word(at) == asked.function);
@@ -225,6 +239,11 @@ fn refuse_absent(file: &File<'_, '_>, asked: &Options) -> Result<(), Fault> {
     }
     let functions = functions(file.text, file.tokens, file.directives)?;
     Err(Fault::new(absent(&asked.function, &functions)))
+}
+
+/// Says that another function is taken for the one that goes without saying.
+pub(super) fn is_taken(name: &str) -> String {
+    format!("there is no function `{THRESHOLD}`, and `{name}` is taken for it (--function names another)")
 }
 
 /// The function that is meant where none is named and none has the name that goes without saying: the only one that sounds like a
