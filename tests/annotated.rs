@@ -79,7 +79,13 @@ fn the_action_tries_the_shaders_of_a_change_and_no_others() {
     std::fs::write(at("other.frag"), "float x() { return 0.0; }").unwrap();
     git(&["add", "."]);
     git(&["commit", "-qm", "no threshold"]);
-    assert_eq!(act(""), (Some(0), "No shader of this change has a function threshold.\n".to_owned()));
+    // A shader of another purpose is passed over.
+    assert_eq!(act(""), (Some(0), String::new()));
+    std::fs::write(at("notes.txt"), "another").unwrap();
+    git(&["add", "."]);
+    git(&["commit", "-qm", "no shader"]);
+    assert_eq!(act(""), (Some(0), "This change touches no shader.\n".to_owned()));
+    std::fs::write(at("other.frag"), "float bloom() { return 1.0; }").unwrap();
     std::fs::write(at("new.frag"), PORT_WITH_A_SLIP).unwrap();
     git(&["add", "."]);
     git(&["commit", "-qm", "a threshold"]);
@@ -87,7 +93,7 @@ fn the_action_tries_the_shaders_of_a_change_and_no_others() {
     assert_eq!(code, Some(1), "{text}");
     assert!(text.starts_with("::error file=new.frag,line=3,") && !text.contains("old.frag"), "{text}");
     assert!(at("report/check.sarif").exists() && at("report/index.html").exists());
-    assert_eq!(std::fs::read_to_string(at("output")).unwrap(), "tried=false\ntried=true\n");
+    assert_eq!(std::fs::read_to_string(at("output")).unwrap(), "tried=false\ntried=false\ntried=true\n");
     // A first push names no commit: nothing is passed over in silence.
     let (code, text) = act(&"0".repeat(40));
     assert_eq!(code, Some(1), "{text}");

@@ -125,10 +125,14 @@ pub struct CheckArgs {
     /// TOML file of findings that are known and do not count as rejected
     #[arg(long, value_name = "FILE")]
     pub expect: Option<PathBuf>,
+    /// Pass over shader files that have no such function and no hashed test of an alpha, and try the others where one cannot be read; the
+    /// exit code is 2 where one could not
+    #[arg(long)]
+    pub keep_going: bool,
     /// Write the smallest change of a shader file (GLSL, WGSL) after which its slips are gone and every claim holds that the paper's own
     /// listing passes, as a unified diff on stdout; it was tried before it is written. Exit code 1 where none is found, 0 with a diff and where
     /// nothing is to mend
-    #[arg(long, conflicts_with_all = ["literal", "format", "json", "suite", "only", "expect", "until_failure", "out", "no_report"])]
+    #[arg(long, conflicts_with_all = ["literal", "format", "json", "suite", "only", "expect", "until_failure", "out", "no_report", "keep_going"])]
     pub mend: bool,
     /// Double the samples of every claim until it fails, and say at which number. The verdict is valid whenever one stops; what
     /// is known is kept in the folder of the report, and the same command goes on from there. Ctrl-C ends with what is known

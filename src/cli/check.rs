@@ -34,7 +34,15 @@ pub fn run(args: &CheckArgs) -> Result<Ending, Failure> {
     let words: Vec<_> = typed.iter().map(String::as_str).collect();
     shader_files::refuse_strays(&words, &args.shader)?;
     drivers::silence_for(typed, &args.shader);
-    let asked = subjects::subjects(typed, &args.shader)?;
+    let (asked, unread) = if args.keep_going {
+        subjects::readable(typed, &args.shader)?
+    } else {
+        (subjects::subjects(typed, &args.shader)?, 0)
+    };
+    if asked.is_empty() {
+        output::remark("note", "nothing is left to try");
+        return Ok(if unread > 0 { Ending::Usage } else { Ending::Consistent });
+    }
     let models = under_models(&asked);
     let written_in: Vec<Written> = asked.iter().filter_map(written).collect();
     let (subjects, is_file): (Vec<Subject<'static>>, Vec<bool>) =
@@ -93,6 +101,7 @@ pub fn run(args: &CheckArgs) -> Result<Ending, Failure> {
 
     explain(&outcomes, &known);
     Ok(match worst(&outcomes) {
+        _ if unread > 0 => Ending::Usage,
         Standing::Against => Ending::Rejected,
         Standing::Unanswered => Ending::NoVerdict,
         Standing::Known | Standing::AsExpected | Standing::NotApplicable => Ending::Consistent,

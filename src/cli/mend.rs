@@ -29,7 +29,7 @@ pub fn run(args: &CheckArgs) -> Result<Ending, Failure> {
     options.function.clone_from(&shader.named);
     let refused = |source| Failure::File { action: "read", place: file.path.to_owned(), source };
     let text = std::fs::read_to_string(path).map_err(refused)?;
-    let claimed = subjects::Claimed::of(&args.shader, &options);
+    let claimed = subjects::Claimed::of(&args.shader, &options, &shader);
     let name = file.name();
     let broken = Broken {
         file: &name,
@@ -52,7 +52,12 @@ pub fn run(args: &CheckArgs) -> Result<Ending, Failure> {
     bar.finish_and_clear();
     match outcome {
         Outcome::Sound => {
-            output::remark("note", format_args!("{name}: no experiment shows a slip; nothing is to mend"));
+            output::remark(
+                "note",
+                format_args!(
+                    "{name}: no experiment shows a slip, and every claim holds that the paper's own listing passes; nothing is to mend"
+                ),
+            );
             Ok(Ending::Consistent)
         }
         Outcome::Mended(mended) => {
@@ -118,6 +123,11 @@ fn tell(name: &str, mended: &Mended) {
 
 /// The diff, as `git apply` and `patch -p1` take it.
 fn unified(path: &str, old: &str, new: &str) -> String {
+    // Relative to where the command was typed, as `git apply` takes it.
+    let here = std::env::current_dir().ok();
+    let path = here
+        .and_then(|here| Path::new(path).strip_prefix(here).ok())
+        .map_or(path, |path| path.to_str().unwrap_or_default());
     let path = path.trim_start_matches("./").trim_start_matches('/');
     let diff = TextDiff::from_lines(old, new);
     diff.unified_diff().context_radius(3).header(&format!("a/{path}"), &format!("b/{path}")).to_string()

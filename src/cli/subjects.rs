@@ -111,22 +111,54 @@ pub struct Asked {
 pub fn subjects(typed: &[String], args: &ShaderArgs) -> Result<Vec<Asked>, Failure> {
     let mut found: Vec<Asked> = Vec::new();
     for word in typed {
-        let typed = Typed::of(word);
-        let more = match &typed.what {
-            What::File(typed) => file(typed, args)?,
-            What::Hash(name) => hash(name)?,
-            What::BuiltIn(name) => {
-                built_in(name, typed.on.unwrap_or(args.on), args)?.ok_or_else(|| unknown(word))?
-            }
-        };
-        for asked in more {
-            let is_same = |a: &Subject<'_>, b: &Subject<'_>| a.name == b.name && a.precision == b.precision;
-            if !found.iter().any(|other| is_same(&other.subject, &asked.subject)) {
-                found.push(asked);
-            }
-        }
+        add(&mut found, of_word(word, args)?);
     }
     Ok(found)
+}
+
+/// The subjects that a word stands for.
+fn of_word(word: &str, args: &ShaderArgs) -> Result<Vec<Asked>, Failure> {
+    let typed = Typed::of(word);
+    match &typed.what {
+        What::File(typed) => file(typed, args),
+        What::Hash(name) => hash(name),
+        What::BuiltIn(name) => {
+            built_in(name, typed.on.unwrap_or(args.on), args)?.ok_or_else(|| unknown(word))
+        }
+    }
+}
+
+/// Adds subjects that are not there yet.
+fn add(found: &mut Vec<Asked>, more: Vec<Asked>) {
+    for asked in more {
+        let is_same = |a: &Subject<'_>, b: &Subject<'_>| a.name == b.name && a.precision == b.precision;
+        if !found.iter().any(|other| is_same(&other.subject, &asked.subject)) {
+            found.push(asked);
+        }
+    }
+}
+
+/// The same of those files that can be read. One without such a function and without a test of an alpha is passed over with a note; the
+/// others are told on stderr and counted.
+pub fn readable(typed: &[String], args: &ShaderArgs) -> Result<(Vec<Asked>, usize), Failure> {
+    let mut found: Vec<Asked> = Vec::new();
+    let mut unread = 0;
+    for word in typed {
+        match of_word(word, args) {
+            Ok(more) => add(&mut found, more),
+            Err(Failure::Shader(error)) if error.is_absent => {
+                let function = &args.function;
+                let why = format!("it has no function `{function}`, and no hashed test of an alpha");
+                output::remark("note", format_args!("{word} is passed over: {why}"));
+            }
+            Err(failure @ (Failure::Shader(_) | Failure::File { .. })) => {
+                output::remark("error", failure.message());
+                unread += 1;
+            }
+            Err(failure) => return Err(failure),
+        }
+    }
+    Ok((found, unread))
 }
 
 fn unknown(word: &str) -> Failure {
@@ -212,14 +244,16 @@ pub struct Claimed {
 
 impl Claimed {
     /// What the options say of a shader file.
-    pub fn of(args: &ShaderArgs, options: &own::Options) -> Self {
+    pub fn of(args: &ShaderArgs, options: &own::Options, shader: &OwnShader) -> Self {
         let set = || options.settings.get("hash_scale").and_then(|value| value.parse().ok());
+        // Under another name that is known for it.
+        let taken = || shader.hash_scale().map(f64::from);
         let preset = Robust::new(args.variant).join;
         Self {
             variant: args.variant,
             join: args.join.unwrap_or(if args.nested_phase { preset } else { Join::Interpolate }),
             nested_phase: args.nested_phase,
-            hash_scale: args.hash_scale.or_else(set).unwrap_or(1.0),
+            hash_scale: args.hash_scale.or_else(set).or_else(taken).unwrap_or(1.0),
             frames: args.frames,
         }
     }
@@ -236,6 +270,9 @@ impl Claimed {
 
 fn file(typed: &ShaderFile<'_>, args: &ShaderArgs) -> Result<Vec<Asked>, Failure> {
     let options = typed.options(args)?;
+    if let Some(folder) = args.include.iter().find(|folder| !folder.is_dir()) {
+        return Err(Failure::Usage(format!("-I {}: there is no such folder", folder.display())));
+    }
     let shader = own::read(Path::new(typed.path), &options)?;
     if !shader.taken.is_empty() {
         let said: Vec<_> = shader.taken.iter().map(ToString::to_string).collect();
@@ -248,7 +285,7 @@ fn file(typed: &ShaderFile<'_>, args: &ShaderArgs) -> Result<Vec<Asked>, Failure
         let hashes = own_hash(&typed.name(), &shader, args)?;
         return Ok(hashes.into_iter().map(|asked| Asked { written: written.clone(), ..asked }).collect());
     }
-    let claims = Claimed::of(args, &options);
+    let claims = Claimed::of(args, &options, &shader);
     let name = typed.name();
     let remarks = stops(&shader, args.variant)?;
     let subjects = placed(&name, &shader, args.on, args, &claims, None)?;

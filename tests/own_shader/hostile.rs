@@ -4,14 +4,20 @@ use super::*;
 use hashed_alpha::threshold::pipeline::Pipeline;
 
 #[test]
-fn files_are_limited_and_known_by_their_ending() {
+fn files_are_limited_and_known_by_their_ending_or_their_words() {
     let folder = tempfile::tempdir().unwrap();
     let large = folder.path().join("large.wgsl");
     std::fs::write(&large, vec![b'/'; LARGEST_FILE as usize + 3]).unwrap();
     let error = read(&large, &options(&[])).unwrap_err();
     assert!(error.message.contains("has 4194307 bytes; at most 4194304"), "{error}");
-    let unknown = folder.path().join("shader.txt");
-    assert!(read(&unknown, &options(&[])).unwrap_err().message.contains(".wgsl, .glsl"));
+    // What has another ending is what its words say.
+    let unknown = folder.path().join("shader.any");
+    std::fs::write(&unknown, "float threshold(vec3 position) { return fract(position.x); }").unwrap();
+    assert!(read(&unknown, &options(&[])).is_ok());
+    std::fs::write(&unknown, "Dear reader, there is no shader here.").unwrap();
+    let error = read(&unknown, &options(&[])).unwrap_err();
+    assert!(error.message.contains("no word of it is one of GLSL, HLSL or WGSL"), "{error}");
+    assert!(read(&folder.path().join("absent.any"), &options(&[])).is_err());
     assert!(read(&folder.path().join("absent.wgsl"), &options(&[])).is_err());
     let directory = folder.path().join("directory.wgsl");
     std::fs::create_dir(&directory).unwrap();

@@ -708,8 +708,8 @@ void keep(Varyings i, inout float alpha, bool isOn) { if (isOn && alpha < thresh
     }
     for (wrong, wanted) in [
         (text.replace("frac(p.x)", "frac(q.x)"), "own.slang:7:1: "),
-        (text.replace("import size", "import missing"), "own.slang:1:1: "),
-        (text.replace("import size", "import missing"), " -I DIR names a folder to look in"),
+        (text.replace("import size", "import missing"), "own.slang:8:1: undefined identifier 'longer'"),
+        (text.replace("import size", "import missing"), "'missing.slang' -I DIR names a folder to look in"),
         (text.replace("float threshold(", "float other("), "functions are generic, other, psMain, keep"),
         (
             text.to_owned(),

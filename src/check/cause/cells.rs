@@ -1,6 +1,6 @@
 //! Where cells begin and how large they are.
 
-use super::probe::{Probe, SAME};
+use super::probe::{ALONE, Probe, SAME};
 use super::slip::{Found, Slip, found, named};
 use crate::stats::seed;
 use crate::threshold::two_scale::Variant;
@@ -49,6 +49,34 @@ pub(super) struct Faces {
     pub finer: i32,
     /// Whether some cells have a face in their middle and others have none, as a function of two cells has.
     pub of_two: bool,
+}
+
+/// The octave at which the hash changes within its cells, where that of the other does not.
+pub(super) fn uncut(probe: &Probe<'_>, rng: &mut Xoshiro256PlusPlus) -> Option<Found> {
+    const FINER: Slip = named("finer-cells-uncut");
+    const COARSER: Slip = named("coarser-cells-uncut");
+    const PAIRS: usize = 192;
+    /// Two places of one cell, in a half of it, and how many of them have one threshold.
+    const CUT: f64 = 0.9;
+    const UNCUT: f64 = 0.1;
+    let mut index = || (seed::uniform01(rng) * 100.0).floor() + 0.3;
+    let pairs: Vec<_> = (0..PAIRS)
+        .map(|_| [(); 3].map(|()| index()))
+        .map(DVec3::from_array)
+        .map(|at| [at, at + 0.1])
+        .collect();
+    let [coarser, finer] = [ALONE, 1.0 - ALONE].map(|lean| Probe { lean, ..*probe }.share(&pairs));
+    let slip = match (coarser, finer) {
+        (coarser, finer) if coarser > CUT && finer < UNCUT => FINER,
+        (coarser, finer) if finer > CUT && coarser < UNCUT => COARSER,
+        _ => return None,
+    };
+    let shown = format!(
+        "of {PAIRS} pairs of places in one cell {:.0} % have one threshold at the coarser scale and {:.0} % at the finer one",
+        100.0 * coarser,
+        100.0 * finer
+    );
+    Some(found(slip, shown))
 }
 
 fn index(rng: &mut Xoshiro256PlusPlus) -> f64 {

@@ -144,6 +144,14 @@ pub(super) const CORRECTIONS: &[Correction] = &[
         if x < 1.0 - a { if x < a { first(x, a) } else { middle(x, a) } } else { last(x, a) }
     }),
     correction("a-without-min", |x, a| cases(x, a, [first(x, a), middle(x, a), last(x, a)])),
+    correction("max-for-min-in-a", |x, t| {
+        let a = t.max(1.0 - t);
+        cases(x, a, [first(x, a), middle(x, a), last(x, a)])
+    }),
+    correction("max-for-min-in-a", |x, t| {
+        let a = t.max(1.0 - t);
+        if x < 1.0 - a { first(x, a) } else { last(x, a) }
+    }),
     correction("first-cases-swapped", |x, t| {
         let a = minor(t);
         cases(x, a, [middle(x, a), first(x, a), last(x, a)])
@@ -170,6 +178,17 @@ pub(super) const CORRECTIONS: &[Correction] = &[
     correction("smoothstep-for-cdf", |x, _| x * x * (3.0 - 2.0 * x)),
     correction("cdf-twice", |x, t| cdf::cdf(cdf::cdf(x, t), t)),
 ];
+
+/// One case of Eq. 2 alone is another formula: in the order of the cases.
+pub(super) const CASES: [Slip; 3] =
+    [named("first-case-wrong"), named("middle-case-wrong"), named("last-case-wrong")];
+
+/// The case of Eq. 2 that a value at a weight is of; none within `near` of where two meet.
+pub(super) fn case_of(x: f64, t: f64, near: f64) -> Option<usize> {
+    let a = minor(t);
+    let is_apart = (x - a).abs() >= near && (x - (1.0 - a)).abs() >= near;
+    is_apart.then(|| cases(x, a, [0.0, 1.0, 2.0]) as usize)
+}
 
 /// Joins whose value does not follow the weight show two cells at every view, each with its own law of single cells: the
 /// distribution function of the value of two hashes. One hash of the finer cell, as of two ceilings, looks like a sum that wraps

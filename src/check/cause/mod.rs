@@ -136,6 +136,9 @@ fn examined(subject: &Subject<'_>, among: Option<&[&str]>) -> Examination {
         None => {}
     }
     all.extend(steps.map(|steps| steps.found));
+    if all.is_empty() && !is_explained {
+        all.extend(cells::uncut(&probe, rng));
+    }
     let follows = all.is_empty() && is_explained;
     Examination { found: all, follows, is_explained }
 }

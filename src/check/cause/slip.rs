@@ -73,6 +73,36 @@ const OTHERS: &[Slip] = &[
         mend: "interpolate between the hashes with the weight that the CDF has",
     },
     Slip {
+        name: "finer-cells-uncut",
+        defect: "the position is cut to cells at the coarser scale only: the hash at the finer one changes within its cells",
+        mend: "take floor of the position at both scales",
+    },
+    Slip {
+        name: "coarser-cells-uncut",
+        defect: "the position is cut to cells at the finer scale only: the hash at the coarser one changes within its cells",
+        mend: "take floor of the position at both scales",
+    },
+    Slip {
+        name: "first-case-wrong",
+        defect: "the first case of Eq. 2 (x below a) is another formula; the other two are right",
+        mend: "x * x / (2 * a * (1 - a)) where x < a, with a = min(lerp factor, 1 - lerp factor)",
+    },
+    Slip {
+        name: "middle-case-wrong",
+        defect: "the middle case of Eq. 2 (x from a to 1 - a) is another formula; the other two are right",
+        mend: "(x - a / 2) / (1 - a) where a <= x < 1 - a, with a = min(lerp factor, 1 - lerp factor)",
+    },
+    Slip {
+        name: "last-case-wrong",
+        defect: "the last case of Eq. 2 (x from 1 - a on) is another formula; the other two are right",
+        mend: "1 - (1 - x) * (1 - x) / (2 * a * (1 - a)) where x >= 1 - a, with a = min(lerp factor, 1 - lerp factor)",
+    },
+    Slip {
+        name: "max-for-min-in-a",
+        defect: "a of Eq. 2 is the larger one of the lerp factor and 1 - lerp factor, not the smaller one",
+        mend: "let a = min(lerp factor, 1 - lerp factor)",
+    },
+    Slip {
         name: "without-y",
         defect: "the hash does not read y, so the noise is made of stripes",
         mend: "hash all three coordinates",

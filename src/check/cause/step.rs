@@ -52,7 +52,7 @@ const OF_SCALE: [&str; 20] = [
 ];
 
 /// Slips of the join and behind it.
-const OF_JOIN: [&str; 40] = [
+const OF_JOIN: [&str; 44] = [
     "coarser-for-finer",
     "octave-skipped",
     "one-octave-for-both",
@@ -75,6 +75,10 @@ const OF_JOIN: [&str; 40] = [
     "last-case-missing",
     "middle-case-unshifted",
     "last-case-unmirrored",
+    "first-case-wrong",
+    "middle-case-wrong",
+    "last-case-wrong",
+    "max-for-min-in-a",
     "cdf-of-equal-weights",
     "inverse-for-cdf",
     "density-for-cdf",

@@ -2,7 +2,7 @@
 //! its values follow from what it shows of single cells.
 
 use super::cells::Faces;
-use super::join::{CORRECTIONS, Correction, FORMS, Form, Sight, WEIGHTLESS};
+use super::join::{CASES, CORRECTIONS, Correction, FORMS, Form, Sight, WEIGHTLESS, case_of};
 use super::law::{Bend, Law, Undone, follows, laws, nearest, unique};
 use super::measure::Measure;
 use super::probe::{ALONE, Probe, SAME, places};
@@ -10,6 +10,7 @@ use super::slip::{Found, Slip, found, named};
 use crate::check::Subject;
 use crate::scene::Fragment;
 use crate::stats::seed;
+use crate::threshold::footprint::Footprint;
 use crate::threshold::robust::scales::corner_weight;
 use crate::threshold::two_scale::Variant;
 use glam::{DVec3, dvec3};
@@ -52,6 +53,8 @@ pub(super) struct Explained {
     count: usize,
     /// Whether single cells are uniform.
     is_uniform: bool,
+    /// The case of Eq. 2 that alone is wrong, with what shows it.
+    case: Option<Found>,
 }
 
 /// What is seen of some places under one way to a scale.
@@ -220,6 +223,7 @@ pub(super) fn explain(
         CORRECTIONS.iter().map(|c| is_sought(c.slip).then(|| Undone::of(c.of, ALONE)).flatten()).collect();
     let mut sound = None;
     let mut best: Option<Explained> = None;
+    let mut first = None;
     for measure in size.with_scales().into_iter().filter(|measure| measure.is_among(scales)) {
         // What a way with as many slips explains is not explained better.
         if best.as_ref().is_some_and(|best| best.share >= SURE && best.count <= measure.slips().count()) {
@@ -227,6 +231,9 @@ pub(super) fn explain(
         }
         let Some(seen) = see(subject, measure, places, rng) else { continue };
         let as_it_is = Law { slip: None, shown: String::new(), bend: Bend::Clamp([0.0, 1.0]) };
+        if first.is_none() {
+            first = Some((measure, by_case(&seen, near)));
+        }
         let is_uniform = seen.laws.iter().any(|law| law.slip.is_none());
         let is_tried =
             |slip: Option<Slip>| slip.is_none_or(|slip| among.is_none_or(|names| names.contains(&slip.name)));
@@ -263,13 +270,56 @@ pub(super) fn explain(
                             sound,
                             count,
                             is_uniform,
+                            case: None,
                         });
                     }
                 }
             }
         }
     }
-    best
+    // What more than one slip explains, one case alone explains better.
+    let case = first.and_then(|(measure, case)| Some((measure, case?)));
+    match case {
+        Some((measure, case)) if best.as_ref().is_none_or(|best| best.count > 1) => Some(Explained {
+            measure,
+            form: FORMS[0],
+            correction: CORRECTIONS[0],
+            law: Law { slip: None, shown: String::new(), bend: Bend::Clamp([0.0, 1.0]) },
+            share: EXPLAINED,
+            sound: 0.0,
+            count: 1,
+            is_uniform: true,
+            case: Some(case),
+        }),
+        Some(_) | None => best,
+    }
+}
+
+/// The case of Eq. 2 at whose values thresholds do not come out, where they do at those of the other two.
+fn by_case(seen: &Seen, near: f64) -> Option<Found> {
+    /// The share that comes out of a case that is wrong, at most: lines meet.
+    const WRONG: f64 = 0.6;
+    /// Fewer places say nothing of a case.
+    const FEWEST: u32 = 20;
+    let (mut all, mut right) = ([0_u32; 3], [0_u32; 3]);
+    for (sight, value) in &seen.sights {
+        let (x, weight) = (FORMS[0].of)(sight);
+        if let Some(case) = case_of(x, weight, near) {
+            all[case] += 1;
+            right[case] += u32::from(((CORRECTIONS[0].of)(x, weight) - value).abs() < near);
+        }
+    }
+    let share = |case: usize| f64::from(right[case]) / f64::from(all[case].max(1));
+    let wrong: Vec<usize> = (0..3).filter(|&case| share(case) < WRONG).collect();
+    let [case] = wrong[..] else { return None };
+    let is_known = all.iter().all(|&all| all >= FEWEST);
+    let others = (0..3).filter(|&other| other != case).map(share).fold(1.0, f64::min);
+    let shown = format!(
+        "{:.0} % of thresholds follow from those of their cells in this case, at least {:.0} % in each of the others",
+        100.0 * share(case),
+        100.0 * others
+    );
+    (is_known && others >= EXPLAINED).then(|| found(CASES[case], shown))
 }
 
 impl Explained {
@@ -307,7 +357,7 @@ impl Explained {
     /// What is wrong from the hashes on.
     pub fn of_join(&self, probe: &Probe<'_>, faces: &Faces) -> Vec<Found> {
         const SWAPPED: Slip = named("weights-swapped");
-        let mut all = Vec::new();
+        let mut all: Vec<Found> = self.case.iter().cloned().collect();
         if let Some(slip) = self.form.slip {
             let slip = if self.form.is_reversed && faces.finer == 1 {
                 SWAPPED
@@ -365,7 +415,10 @@ pub(super) fn steps(subject: &Subject<'_>, rng: &mut Xoshiro256PlusPlus) -> Opti
     const HALF: Slip = named("half-precision");
     /// More values than a table of 8 bits has.
     const HALVES: usize = 300;
-    let values = subject.thresholds(&places(CELLS, subject.hash_scale, rng));
+    /// Thresholds that are asked for at the origin.
+    const AT_ORIGIN: usize = 32;
+    let mut some = places(CELLS, subject.hash_scale, rng);
+    let values = subject.thresholds(&some);
     // Of the numbers below 2^-14 there are more.
     let has_half = |value: &f64| {
         let significand = libm::frexp(*value).0 * 2048.0;
@@ -377,7 +430,23 @@ pub(super) fn steps(subject: &Subject<'_>, rng: &mut Xoshiro256PlusPlus) -> Opti
     }
     let (count, zeros) = (unique(&values).len(), values.iter().filter(|&&value| value == 0.0).count());
     let shown = format!("{CELLS} thresholds have {count} different values, and {zeros} are 0");
-    if zeros > 0 && !values.iter().any(|&value| value < 0.0) {
+    let is_negative = values.iter().any(|&value| value < 0.0);
+    if zeros > 0 && !is_negative {
+        return Some(Steps { found: found(ZERO, shown), are_halves: false, count });
+    }
+    // Many hashes of cell (0, 0, 0) are 0.
+    some.truncate(AT_ORIGIN);
+    for Fragment { footprint, world, eye, .. } in &mut some {
+        let length = footprint.dpdx.length().min(footprint.dpdy.length()) * subject.hash_scale;
+        footprint.position = subject
+            .precision
+            .round(&Footprint { position: DVec3::splat(0.05 * length), ..*footprint })
+            .position;
+        (*world, *eye) = (footprint.position, footprint.position);
+    }
+    let at_origin = subject.thresholds(&some).into_iter().filter(|&value| value == 0.0).count();
+    if 2 * at_origin > AT_ORIGIN && !is_negative {
+        let shown = format!("{at_origin} of {AT_ORIGIN} thresholds in cell (0, 0, 0) are 0");
         return Some(Steps { found: found(ZERO, shown), are_halves: false, count });
     }
     (count <= FEW && count > 1).then(|| Steps { found: found(STEPS, shown), are_halves: false, count })

@@ -53,6 +53,8 @@ pub(super) struct Sheet<'t> {
     pub position: Option<String>,
     pub derivatives: Option<[String; 2]>,
     pub hash_scale: Option<String>,
+    /// Whether the function reads a size of the noise, under whatever name.
+    pub has_hash_scale: bool,
     /// The steps in which something is wrong.
     pub wrong: Steps,
 }

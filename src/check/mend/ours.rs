@@ -18,6 +18,10 @@ fn words(text: &str) -> impl Iterator<Item = &str> {
 pub(super) fn replaced(sheet: &Sheet<'_>) -> Option<String> {
     let Sheet { text, syntax, function, .. } = *sheet;
     let (position, [dpdx, dpdy]) = (sheet.position.as_ref()?, sheet.derivatives_of_function()?);
+    // A size that has no name in the text would be lost.
+    if sheet.has_hash_scale && sheet.hash_scale.is_none() {
+        return None;
+    }
     let hash_scale = if sheet.hash_scale.is_some() { HashScale::Parameter } else { HashScale::Written };
     let pipeline = Pipeline::listing(sheet.variant);
     let language = if syntax.is_wgsl { Language::Wgsl } else { Language::Glsl };

@@ -12,7 +12,7 @@ fn ending(clamp: fn(f64) -> f64) -> Subject<'static> {
 pub(super) const FAMILY: &[Specimen] = &[
     Specimen {
         name: "clamped-at-zero",
-        defect: "thresholds are clamped to [0, 1] after a table of 8 bits: a threshold of 0 keeps alpha 0",
+        defect: "nothing keeps a threshold above 0, and where it is 0 alpha 0 is kept",
         mend: "clamp to a smallest threshold above 0, last of all",
         claim: "range",
         subject: || ending(|threshold| (255.0 * threshold).floor() / 255.0),

@@ -327,8 +327,10 @@ impl<'s> Search<'_, 's, '_> {
                 return Ok(());
             }
         }
-        // Of a difference it is not known how it follows the alpha.
-        if alpha.clone().any(|at| self.body.word(at) == "-") {
+        // Of a difference it is not known how it follows the alpha, and a transparency is one.
+        let lower = self.body.written(&alpha).to_ascii_lowercase();
+        let is_rest = ["transparen", "transmit"].iter().any(|part| lower.contains(part));
+        if is_rest || alpha.clone().any(|at| self.body.word(at) == "-") {
             return Ok(());
         }
         if let Some(fails) = fails

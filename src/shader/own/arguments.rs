@@ -128,7 +128,7 @@ impl OwnShader {
 
     fn another_program(&self) -> ShaderError {
         let message = "it is the program of another function".to_owned();
-        ShaderError { file: self.file.clone(), place: None, message }
+        ShaderError { file: self.file.clone(), place: None, message, is_absent: false }
     }
 
     /// Runs the function; its result is the last of the values that come back.
@@ -140,7 +140,7 @@ impl OwnShader {
     ) -> Result<Option<Values>, ShaderError> {
         let values = self.columns(fragments);
         let columns: Vec<_> = values.iter().map(as_column).collect();
-        let fail = |place, message| ShaderError { file: self.file.clone(), place, message };
+        let fail = |place, message| ShaderError { file: self.file.clone(), place, message, is_absent: false };
         match program.run(&columns, fragments.len(), model) {
             Ok(mut results) => Ok(results.pop()),
             Err(stopped) => {
@@ -180,6 +180,7 @@ impl OwnShader {
             file: self.file.clone(),
             place: None,
             message,
+            is_absent: false,
         })
     }
 

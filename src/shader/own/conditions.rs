@@ -1,8 +1,9 @@
 //! What conditions of a preprocessor ask for: which macros let a function be read, and what an engine's own `#ifdef` leaves of a
 //! WGSL file.
 
-use super::directives::Directive;
+use super::directives::{Directive, directives};
 use super::error::Fault;
+use super::scan::tokens;
 use super::statements::is_name;
 use core::ops::Range;
 use std::collections::{BTreeMap, BTreeSet};
@@ -41,6 +42,36 @@ pub(super) fn needed(directives: &[Directive<'_>], offset: usize) -> BTreeMap<St
     }
     needed.retain(|name, _| !own.contains(name.as_str()));
     needed
+}
+
+/// Adds to a message about a name that is nowhere that it stands in a branch which another value of a macro leaves out.
+pub(super) fn with_branch(fault: Fault, text: &str) -> Fault {
+    let is_of_name =
+        ["Unknown function", "Unknown variable", "no definition", "undeclared", "undefined identifier"];
+    let Some(at) = fault.at.clone().filter(|_| is_of_name.iter().any(|words| fault.message.contains(words)))
+    else {
+        return fault;
+    };
+    let Ok(words) = tokens(text) else { return fault };
+    let lines = directives(text, &words);
+    let mut open: Vec<&str> = Vec::new();
+    for line in lines.iter().take_while(|line| line.at.start < at.start) {
+        match line.name() {
+            "if" | "ifdef" | "ifndef" => open.push(&line.written),
+            "elif" | "else" => {
+                open.pop();
+                open.push(&line.written);
+            }
+            "endif" => drop(open.pop()),
+            _ => {}
+        }
+    }
+    let Some(branch) = open.last() else { return fault };
+    let message = format!(
+        "{} (behind `{branch}`: --set NAME=VALUE gives a macro the value of another branch)",
+        fault.message
+    );
+    Fault { message, ..fault }
 }
 
 /// What the parts of a condition between `&&` ask for: `defined(A)`, `A`, `A == 2`, `A >= 2`.
@@ -183,8 +214,6 @@ fn holds(kind: &str, words: &[&str], defined: &BTreeMap<&str, &str>) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::directives::directives;
-    use super::super::scan::tokens;
     use super::*;
 
     #[test]

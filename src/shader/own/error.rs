@@ -34,6 +34,8 @@ pub struct ShaderError {
     pub place: Option<Place>,
     /// What is wrong, and what would do instead.
     pub message: String,
+    /// Whether there is no function of the name in it, and none that is meant: it may be a file of another purpose.
+    pub is_absent: bool,
 }
 
 impl fmt::Display for ShaderError {
@@ -51,11 +53,18 @@ impl fmt::Display for ShaderError {
 pub(super) struct Fault {
     pub message: String,
     pub at: Option<Range<usize>>,
+    /// Whether there is no function of the name that is asked for.
+    pub is_absent: bool,
 }
 
 impl Fault {
     pub fn new(message: impl Into<String>) -> Self {
-        Self { message: message.into(), at: None }
+        Self { message: message.into(), at: None, is_absent: false }
+    }
+
+    /// There is no function of the name that is asked for.
+    pub fn absent(message: impl Into<String>) -> Self {
+        Self { is_absent: true, ..Self::new(message) }
     }
 
     pub fn at(self, at: Option<Range<usize>>) -> Self {

@@ -25,7 +25,8 @@ const ENTRY: &str = "hashed_alpha_entry";
 pub(super) fn read(text: &str, asked: &Options) -> Result<Front, Fault> {
     let tokens = tokens(text)?;
     let Head { parameters, .. } = head(text, &tokens, &asked.function)?;
-    let (mut prepared, defines) = glsl::reached(text, &tokens, asked)?;
+    let (prepared, defines) = glsl::reached(text, &tokens, asked)?;
+    let mut prepared = without_constant_uniforms(prepared)?;
     let declared: String = parameters
         .iter()
         .enumerate()
@@ -41,6 +42,24 @@ pub(super) fn read(text: &str, asked: &Options) -> Result<Front, Fault> {
     let front = isolated(move || read_spir_v(&bytes))?;
     let defined = defines.into_iter().map(|(name, _)| name).collect();
     Ok(Front { defined, ..front })
+}
+
+/// Takes the `const` off globals that are given no value here: they are uniforms, and the compiler makes zeros of them.
+fn without_constant_uniforms(text: String) -> Result<String, Fault> {
+    let tokens = tokens(&text)?;
+    let word = |at: usize| tokens.get(at).map_or("", |token| &text[token.at.clone()]);
+    let mut bytes = text.clone().into_bytes();
+    for (at, token) in tokens.iter().enumerate() {
+        let is_global = token.function.is_none() && token.braces == 0 && token.parentheses == 0;
+        if is_global && word(at) == "const" {
+            let rest = || (at..tokens.len()).take_while(|&at| !matches!(word(at), ";" | "{"));
+            let is_static = at > 0 && word(at - 1) == "static" || word(at + 1) == "static";
+            if !is_static && !rest().any(|at| word(at) == "=") {
+                bytes[token.at.clone()].fill(b' ');
+            }
+        }
+    }
+    Ok(String::from_utf8_lossy(&bytes).into_owned())
 }
 
 /// What a function takes and returns.
@@ -82,7 +101,7 @@ pub(super) fn head<'t>(text: &'t str, tokens: &[Token], function: &str) -> Resul
     let end = |name: usize| (name..tokens.len()).find(|&at| word(at) == ")" && tokens[at].parentheses == 0);
     let Some((name, end)) = name.and_then(|name| Some((name, end(name)?))) else {
         let known = quoted::functions(text).join(", ");
-        return Err(Fault::new(format!(
+        return Err(Fault::absent(format!(
             "there is no function `{function}`; --function NAME takes one of another name; functions are {known}"
         )));
     };

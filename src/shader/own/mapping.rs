@@ -37,12 +37,13 @@ pub(super) fn map(
     module: &mut Module,
     target: Handle<Function>,
     asked: &Options,
-    settings: &BTreeMap<String, String>,
+    settings: &mut BTreeMap<String, String>,
     inputs: &BTreeSet<String>,
     uniforms: &[String],
     pixels: &BTreeSet<String>,
 ) -> Result<Mapped, Fault> {
     let said = &asked.map;
+    sized(&items(module, target, &BTreeMap::new()), asked, settings)?;
     let items = items(module, target, settings);
     let mut taken: Vec<(&Item, &'static str)> = Vec::new();
     // The alpha of a test has been taken before.
@@ -109,7 +110,7 @@ pub(super) fn map(
     let has_position = taken.iter().any(|(_, meaning)| *meaning == "position")
         || items.iter().any(|item| item.name == "position" && item.place.is_parameter());
     if !has_position {
-        let is_vector = |item: &&Item| {
+        let is_open = |item: &&Item| {
             let is_free = item.setting.is_none()
                 && !pixels.contains(&item.name)
                 && !taken.iter().any(|(taken, _)| taken.place == item.place);
@@ -121,14 +122,16 @@ pub(super) fn map(
                 }
             };
             let is_another = meanings().any(|known| known == item.name || is_usual(known, &item.name));
-            shape(&module.types[item.ty].inner) == Some((3, ScalarKind::Float))
-                && is_free
-                && is_of_fragment
-                && !is_another
+            is_free && is_of_fragment && !is_another
         };
-        let sounds = |item: &&Item| sounds_like_position(&item.name);
-        let item = only(items.iter().filter(is_vector).filter(sounds))
-            .or_else(|| only(items.iter().filter(is_vector)));
+        let has = |item: &&Item, size| shape(&module.types[item.ty].inner) == Some((size, ScalarKind::Float));
+        let vectors = || items.iter().filter(is_open).filter(|item| has(item, 3));
+        // One of four has no more than its sound to speak for it.
+        let sounding = |size| {
+            let all = items.iter().filter(is_open).filter(move |item| has(item, size));
+            only(all.filter(|item| sounds_like_position(&item.name)))
+        };
+        let item = sounding(3).or_else(|| only(vectors())).or_else(|| sounding(4));
         taken.extend(item.map(|item| (item, "position")));
     }
     let mut notes: Vec<_> =
@@ -148,6 +151,27 @@ pub(super) fn map(
     let target =
         if taken.is_empty() && !has_structures { target } else { wrap(module, target, &taken, &items) };
     Ok(Mapped { target, notes, names, members })
+}
+
+/// The size of the noise under the name that the file has for it: what is set by that name is the size that is meant.
+fn sized(items: &[Item], asked: &Options, settings: &mut BTreeMap<String, String>) -> Result<(), Fault> {
+    const SIZE: &str = "hash_scale";
+    let is_size = |item: &&Item| item.name != SIZE && is_usual(SIZE, &item.name);
+    let set =
+        items.iter().filter(is_size).filter_map(|item| settings.keys().find(|name| item.is_called(name)));
+    if !settings.contains_key(SIZE)
+        && !asked.map.contains_key(SIZE)
+        && let Some(name) = only(set).cloned()
+        && let Some(value) = settings.remove(&name)
+    {
+        settings.insert(SIZE.to_owned(), value);
+    }
+    let number = settings.get(SIZE).and_then(|value| value.parse::<f64>().ok());
+    if let Some(number) = number.filter(|number| !(number.is_finite() && *number > 0.0)) {
+        let message = format!("--set {SIZE}={number}: a size of the noise, in pixels, is finite and above 0");
+        return Err(Fault::new(message));
+    }
+    Ok(())
 }
 
 /// A function that takes the values of a fragment.

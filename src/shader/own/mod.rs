@@ -105,7 +105,7 @@ pub struct OwnShader {
 /// [`parse`].
 pub fn read(path: &Path, options: &Options) -> Result<OwnShader, ShaderError> {
     let file = path.display().to_string();
-    let fail = |message: String| ShaderError { file: file.clone(), place: None, message };
+    let fail = |message: String| ShaderError { file: file.clone(), place: None, message, is_absent: false };
     let language = Language::of(path).unwrap_or(Language::Any);
     let mut bytes = Vec::new();
     // One byte more than is allowed tells a file that is too large, also where it has no length of its own.
@@ -162,10 +162,10 @@ fn parse_in(
                 prelude,
             })
         }
-        Err(Fault { message, at }) => {
+        Err(Fault { message, at, is_absent }) => {
             let found = at.and_then(|at| located(&sources, prelude, at.start));
             let (file, place) = found.map_or((file, None), |(file, place)| (file, Some(place)));
-            Err(ShaderError { file: file.to_owned(), place, message })
+            Err(ShaderError { file: file.to_owned(), place, message, is_absent })
         }
     }
 }
@@ -218,12 +218,13 @@ fn read_text(
     if is_told {
         notes.insert(0, unit::is_taken(&options.function));
     }
-    let front = match dialect {
+    let read = match dialect {
         Dialect::Wgsl => wgsl::read(&text, &asked),
         Dialect::Glsl => glsl::read(&text, &asked, prelude),
         Dialect::Hlsl if language == Language::Slang => slang::read(&text, &asked, folder),
         Dialect::Hlsl => hlsl::read(&text, &asked),
-    }?;
+    };
+    let front = read.map_err(|fault| conditions::with_branch(fault, &text))?;
     if dialect == Dialect::Hlsl {
         // What is found from here on has no place in it.
         *sources = Sources::default();
@@ -244,6 +245,7 @@ pub fn assembled(name: &str, options: impl Into<ShaderOptions>) -> Result<OwnSha
         file: name.to_owned(),
         place: None,
         message: error.to_string(),
+        is_absent: false,
     })?;
     let mut asked = Options::default();
     if options.parameters().contains(&SAMPLE_INDEX) {
@@ -279,7 +281,7 @@ impl OwnShader {
     pub fn error_at(&self, span: Span, message: String) -> ShaderError {
         let found = span.to_range().and_then(|range| located(&self.sources, self.prelude, range.start));
         let (file, place) = found.map_or((self.file.as_str(), None), |(file, place)| (file, Some(place)));
-        ShaderError { file: file.to_owned(), place, message }
+        ShaderError { file: file.to_owned(), place, message, is_absent: false }
     }
 
     /// Returns where in the user's text, or in a file that it includes, a part of the module stands.

@@ -19,7 +19,46 @@ struct Literal {
     is_line: bool,
 }
 
-/// Blanks all but the string literal, or the literals that follow each other, in which `function` is defined; nothing moves. Where
+/// Literals that follow each other, as one text.
+struct Group {
+    at: Range<usize>,
+    shown: String,
+}
+
+/// Puts literals together between which nothing stands but what joins them.
+fn groups(text: &str) -> Vec<Group> {
+    let literals = literals(text);
+    let is_next = |a: &Literal, b: &Literal| {
+        let between = &text[a.whole.end..b.whole.start];
+        between.bytes().all(|byte| byte.is_ascii_whitespace() || b",+\\".contains(&byte))
+    };
+    let shown = |literals: &[Literal]| {
+        let at = literals[0].at.start..literals[literals.len() - 1].at.end;
+        let mut bytes = text.as_bytes()[at.clone()].to_vec();
+        let mut kept = vec![false; bytes.len()];
+        let here = |range: &Range<usize>| range.start - at.start..range.end - at.start;
+        for Literal { at: own, is_line, .. } in literals {
+            kept[here(own)].fill(true);
+            if !is_line {
+                holes(text, own).iter().for_each(|hole| kept[here(hole)].fill(false));
+                continue;
+            }
+            for escape in escapes(text, own) {
+                kept[here(&escape)].fill(false);
+                // A literal may hold several lines.
+                if text[escape.clone()].ends_with('n') && escape.end < own.end {
+                    (bytes[escape.end - 1 - at.start], kept[escape.end - 1 - at.start]) = (b'\n', true);
+                }
+            }
+        }
+        let goes = |(byte, kept): &(&mut u8, bool)| !kept && **byte != b'\n';
+        bytes.iter_mut().zip(kept).filter(goes).for_each(|(byte, _)| *byte = b' ');
+        Group { at, shown: String::from_utf8_lossy(&bytes).into_owned() }
+    };
+    literals.chunk_by(is_next).map(shown).collect()
+}
+
+/// Blanks all but the string literal, or the literals that follow each other, in which `function` is defined; no byte moves. Where
 /// the text defines it outside of all literals, it is a shader as it stands: headers of shaders have the endings of C. Where none is
 /// named, one that sounds like it is taken, and otherwise the text that discards.
 ///
@@ -27,68 +66,49 @@ struct Literal {
 ///
 /// No literal that defines it, and several.
 pub(super) fn uncovered(text: &str, function: &mut String) -> Result<String, Fault> {
-    let literals = literals(text);
+    let groups = groups(text);
     if *function == THRESHOLD && defined(text, function).is_none() {
-        let parts = literals.iter().map(|literal| &text[literal.at.clone()]);
-        let names: BTreeSet<_> = parts.flat_map(functions).collect();
+        let names: BTreeSet<_> = groups.iter().flat_map(|group| functions(&group.shown)).collect();
         if let Some(name) = sounding(&names.iter().map(String::as_str).collect()) {
             name.clone_into(function);
         }
     }
     let function = function.as_str();
-    let is_nowhere = function == THRESHOLD && defined(text, function).is_none();
+    let is_nowhere =
+        function == THRESHOLD && groups.iter().all(|group| defined(&group.shown, function).is_none());
     // Where no name says which function is meant, the literal that discards has it.
-    let defines = |literal: &&Literal| {
-        let text = &text[literal.at.clone()];
-        defined(text, function).is_some() || is_nowhere && text.contains("discard")
-    };
-    let mut defining: Vec<_> = literals.iter().enumerate().filter(|(_, literal)| defines(literal)).collect();
+    let discards = |group: &&Group| group.shown.contains("discard");
+    let defines = |group: &&Group| defined(&group.shown, function).is_some() || is_nowhere && discards(group);
+    let mut defining: Vec<_> = groups.iter().filter(defines).collect();
     // Of several `main` that which discards.
-    if defining.len() > 1 {
-        let discarding = |(_, literal): &&(usize, &Literal)| text[literal.at.clone()].contains("discard");
-        if defining.iter().filter(discarding).count() == 1 {
-            defining.retain(|(_, literal)| text[literal.at.clone()].contains("discard"));
+    if defining.len() > 1 && defining.iter().filter(|group| discards(group)).count() == 1 {
+        defining.retain(discards);
+    }
+    match defining[..] {
+        [Group { at, shown }] => {
+            let blank = |part: &str| -> String {
+                part.bytes().map(|byte| if byte == b'\n' { '\n' } else { ' ' }).collect()
+            };
+            Ok([&blank(&text[..at.start]), shown.as_str(), &blank(&text[at.end..])].concat())
+        }
+        [] if defined(text, function).is_some() => Ok(text.to_owned()),
+        [] => {
+            let names: Vec<_> = groups.iter().flat_map(|group| functions(&group.shown)).collect();
+            let likely = likely(function, &names);
+            let known = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
+            Err(Fault::absent(format!(
+                "no text between quotes defines a function `{function}`.{likely} --function NAME takes one of another name; functions \
+                 between quotes are {known}"
+            )))
+        }
+        [_, second, ..] => {
+            let message = format!(
+                "`{function}` is defined in several string literals of the file; this is the second: copy the one that is meant into \
+                 a file"
+            );
+            Err(Fault::new(message).at(Some(second.at.start..second.at.start + 1)))
         }
     }
-    let mut found = defining.into_iter();
-    let Some((index, _)) = found.next() else {
-        if defined(text, function).is_some() {
-            return Ok(text.to_owned());
-        }
-        let parts = literals.iter().map(|literal| &text[literal.at.clone()]);
-        let names: Vec<_> = parts.flat_map(functions).collect();
-        let likely = likely(function, &names);
-        let known = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
-        return Err(Fault::new(format!(
-            "no text between quotes defines a function `{function}`.{likely} --function NAME takes one of another name; functions \
-             between quotes are {known}"
-        )));
-    };
-    let mut parts = vec![index];
-    let is_next = |a: usize, b: usize| {
-        let between = &text[literals[a].whole.end..literals[b].whole.start];
-        between.bytes().all(|byte| byte.is_ascii_whitespace() || b",+\\".contains(&byte))
-    };
-    parts.extend((index + 1..literals.len()).take_while(|&next| is_next(next - 1, next)));
-    let before = (0..index).rev().take_while(|&last| is_next(last, last + 1));
-    parts.extend(before.collect::<Vec<_>>());
-    if let Some((_, second)) = found.find(|(index, _)| !parts.contains(index)) {
-        let message =
-            format!("`{function}` is defined in several string literals of the file; this is the second");
-        return Err(Fault::new(message).at(Some(second.at.start..second.at.start + 1)));
-    }
-    let mut bytes = text.as_bytes().to_vec();
-    let mut kept = vec![false; bytes.len()];
-    for part in parts {
-        let Literal { at, is_line, .. } = &literals[part];
-        kept[at.clone()].fill(true);
-        for hidden in if *is_line { escapes(text, at) } else { holes(text, at) } {
-            kept[hidden].fill(false);
-        }
-    }
-    let goes = |(byte, kept): &(&mut u8, bool)| !kept && **byte != b'\n';
-    bytes.iter_mut().zip(kept).filter(goes).for_each(|(byte, _)| *byte = b' ');
-    Ok(String::from_utf8_lossy(&bytes).into_owned())
 }
 
 /// Returns the word in front of the name where a text defines a function: `fn` in WGSL, a type in the others.
@@ -251,6 +271,14 @@ mod tests {
             assert_eq!(left(text), "float f(vec3 p) { return 1.0; }", "{text}");
         }
         let lines = "x = [\n\"float f(vec3 p) {\\n\",\n  'return 1.0;',\n \"}\"\n].join(); g = \"other\";";
+        let apart = "s = \"float f(vec3 p)\\n\"\n  \"{\\n\"\n  \"return 1.0; }\\n\";";
+        let whole = "s = \"#version 330\\nfloat f(vec3 p) { return 1.0; }\\n\";";
+        assert_eq!(
+            left(apart).split_whitespace().collect::<Vec<_>>().join(" "),
+            "float f(vec3 p) { return 1.0; }"
+        );
+        let uncovered_whole = uncovered(whole, &mut "f".to_owned()).unwrap();
+        assert_eq!(uncovered_whole.trim(), "#version 330 \nfloat f(vec3 p) { return 1.0; }");
         let words: Vec<_> = left(lines).split_whitespace().map(str::to_owned).collect();
         assert_eq!(words.join(" "), "float f(vec3 p) { return 1.0; }");
         assert_eq!(

@@ -54,7 +54,7 @@ pub(super) fn reduce(front: Front, options: &Options, pixels: &BTreeSet<String>)
         target = pointers::wrap(&mut module, target);
     }
     let Mapped { target, notes: taken, names, members } =
-        mapping::map(&mut module, target, options, &settings, &filled, &uniforms, pixels)?;
+        mapping::map(&mut module, target, options, &mut settings, &filled, &uniforms, pixels)?;
     uniforms.retain(|name| !names.contains(name));
     filled.retain(|name| !names.contains(name));
     let target = quads::wrap(&mut module, target);
@@ -147,7 +147,7 @@ fn find(
         (Some(function), None) => Ok(function),
         (Some(_), Some(second)) => Err(Fault::new(format!("there are several functions `{name}`"))
             .at(module.functions.get_span(second).to_range())),
-        (None, _) => Err(Fault::new(signature::absent(name, functions))),
+        (None, _) => Err(Fault::absent(signature::absent(name, functions))),
     }
 }
 

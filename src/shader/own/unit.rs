@@ -8,7 +8,7 @@ use super::directives::{Directive, directives, functions, in_directives};
 use super::error::Fault;
 use super::head::{Dialect, File};
 use super::includes::Includes;
-use super::items::{items, reached};
+use super::items::{Item, items, reached};
 use super::missing::put_in;
 use super::options::{ALPHA, LARGEST_FILE, Options, THRESHOLD};
 use super::scan::{Token, tokens};
@@ -92,6 +92,11 @@ pub(super) fn unit(
         Ok((pixels(file), test))
     })?;
     let Some(test) = test else {
+        let exchanged = cut(&text, dialect, |file| Ok(exchanged(file, &asked)))?;
+        notes.extend(exchanged.map(|Fault { message, at, .. }| {
+            let line = at.and_then(|at| sources.locate(at.start)).map_or(0, |(_, place)| place.line);
+            format!("line {line}: {message}")
+        }));
         let named = asked.function.clone();
         return Ok(Unit { text, asked, named, notes, pixels });
     };
@@ -238,7 +243,17 @@ fn refuse_absent(file: &File<'_, '_>, asked: &Options) -> Result<(), Fault> {
         return Ok(());
     }
     let functions = functions(file.text, file.tokens, file.directives)?;
-    Err(Fault::new(absent(&asked.function, &functions)))
+    Err(Fault::absent(absent(&asked.function, &functions)))
+}
+
+/// The test of what a function returns, in another one, where it discards the wrong way around.
+fn exchanged(file: &File<'_, '_>, asked: &Options) -> Option<Fault> {
+    let calls = |item: &&Item<'_>| item.tokens.clone().any(|at| file.word(at) == asked.function);
+    let others = file.items.iter().filter(calls).filter_map(|item| item.function).map(|name| file.word(name));
+    others.filter(|name| *name != asked.function).find_map(|name| {
+        let asked = Options { function: name.to_owned(), ..asked.clone() };
+        rewritten(file, &asked).err()
+    })
 }
 
 /// Says that another function is taken for the one that goes without saying.

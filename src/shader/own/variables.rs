@@ -88,7 +88,7 @@ pub(super) fn refuse_resources(
         } else if filled.contains(name) {
             format!(
                 "`{name}` is filled before `main` starts, as an input or by a computed initial value, but `main` does not \
-                 run; make it a parameter or a constant"
+                 run: say --map position={name} where it is the position; otherwise make it a parameter or a constant"
             )
         } else {
             continue;

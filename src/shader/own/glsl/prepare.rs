@@ -100,6 +100,14 @@ pub(super) fn prepare(
             "global" | "instance" if is_outside && word(index + 1) == "uniform" => {
                 blank(&tokens[index..=index])
             }
+            // Of extensions, and without a meaning here.
+            "scalar" | "buffer_reference" if token.parentheses == 1 && word(declaration) == "layout" => {
+                let comma = if word(index + 1) == "," { index + 1 } else { index - 1 };
+                blank(&tokens[index..=index]);
+                if word(comma) == "," {
+                    blank(&tokens[comma..=comma]);
+                }
+            }
             "varying" | "attribute" if is_outside => {
                 blank(&tokens[index..=index]);
                 bytes[token.at.start..token.at.start + 2].copy_from_slice(b"in");
@@ -162,7 +170,9 @@ pub(super) fn prepare(
 }
 
 /// Types that GLSL calls otherwise, or has in an extension: what shaders for several languages use.
-const OTHER_TYPES: [(&str, &str); 16] = [
+const OTHER_TYPES: [(&str, &str); 18] = [
+    ("uint64_t", "uint"),
+    ("int64_t", "int"),
     ("half", "float"),
     ("half2", "vec2"),
     ("half3", "vec3"),
