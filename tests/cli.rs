@@ -578,7 +578,7 @@ fn a_shader_file_is_put_on_trial() {
     let not_a_number =
         check("fn threshold(position: vec3<f32>) -> f32 { return sqrt(-1.0 - abs(position.x)); }");
     assert_eq!(not_a_number.status.code(), Some(1));
-    for (name, message) in [("a.metal", "MSL is not read"), ("b.usf#f", "b.usf: it needs")] {
+    for (name, message) in [("a.metal", "MSL is not read"), ("b.usf#f", "b.usf: No such file")] {
         let output = run(&["check", name], "");
         let error = String::from_utf8(output.stderr).unwrap();
         assert_eq!(output.status.code(), Some(2), "{error}");

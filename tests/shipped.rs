@@ -3,7 +3,8 @@
 //!
 //! `shipped/answers.tsv` has what has to be typed for each, and what is wrong with it. The reader was made with the first 28, which run
 //! without a word or with a value for a uniform; of the other 25, by somebody else, 13 ran when they were tried for the first time, and
-//! what stopped the others was mended. `ForwardLitPass.hlsl` takes the ceiling for both octaves, which looks like a sum that wraps
+//! what stopped the others was mended. Of a third set of 25 (the file of O3DE is left out: its `ShaderResourceGroup` is no HLSL) 7 ran when
+//! they were tried for the first time, and 15 once a message was followed. `ForwardLitPass.hlsl` takes the ceiling for both octaves, which looks like a sum that wraps
 //! around; that is what is told. `-` stands for a slip that no experiment tells: a natural logarithm in the weight alone.
 
 use hashed_alpha::check::{cause, shaders};
@@ -25,7 +26,7 @@ fn files_run_as_they_are_and_the_cause_is_told() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// What is not as the row says; nothing where the compiler of HLSL is missing.
+/// What is not as the row says; nothing where the compiler of its language is missing.
 fn wrong(folder: &Path, row: &[&str]) -> Option<String> {
     let &[file, function, variant, hash_scale, map, set, slip] = row else {
         panic!("seven columns, not {row:?}")
@@ -38,7 +39,13 @@ fn wrong(folder: &Path, row: &[&str]) -> Option<String> {
     let options = Options { function, settings: pairs(set), map: pairs(map), include: Vec::new() };
     let shader = match own::read(&folder.join(file), &options) {
         Ok(shader) => shader,
-        Err(error) if error.message.contains("glslangValidator") => return None,
+        Err(error)
+            if ["glslangValidator", "slangc, which"]
+                .iter()
+                .any(|compiler| error.message.contains(compiler)) =>
+        {
+            return None;
+        }
         Err(error) => return Some(error.to_string()),
     };
     let variant = if variant == "isotropic" { Variant::Isotropic } else { Variant::Anisotropic };

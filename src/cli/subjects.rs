@@ -278,6 +278,14 @@ fn file(typed: &ShaderFile<'_>, args: &ShaderArgs) -> Result<Vec<Asked>, Failure
         let said: Vec<_> = shader.taken.iter().map(ToString::to_string).collect();
         output::remark("note", format_args!("in {} {}", typed.name(), said.join(", ")));
     }
+    for name in shader.taken.iter().filter(|taken| taken.meaning == "position").map(|taken| &taken.name) {
+        let plain = name.to_ascii_lowercase();
+        if plain.contains("world") || plain.ends_with("ws") {
+            let why =
+                "thresholds stay with the world and not with an object that moves (docs/coordinates.md)";
+            output::remark("note", format_args!("`{name}` sounds like a position in world space: {why}"));
+        }
+    }
     shader.notes.iter().for_each(|note| output::remark("note", format_args!("in {} {note}", typed.name())));
     let place = shader.defined_at.map(|place| [place.line, place.column]);
     let written = Some((typed.path.to_owned(), place));

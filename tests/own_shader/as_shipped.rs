@@ -429,3 +429,100 @@ fn the_function_that_sounds_like_it_is_taken() {
     let two = format!("{text} float alphaHashThreshold(vec3 p) {{ return 1.0; }}");
     assert!(glsl(&two, &Options::default()).unwrap_err().contains("there is no function `threshold`"));
 }
+
+#[test]
+fn what_stands_around_a_shader_is_no_obstacle() {
+    let parsed = |file: &str, language, text: &str, options: &Options| {
+        parse(file, language, text.as_bytes(), options).map_err(|error| error.to_string())
+    };
+    // An engine's words around it.
+    let godot = format!(
+        "#[vertex]\nvoid main() {{}}\n#[fragment]\n#VERSION_DEFINES\nin vec3 vPosition; {HASH} void main() {{ vec4 c = texture(m, uv); if (c.a < hash(vPosition)) discard; }}"
+    );
+    assert_eq!(threshold(&glsl(&godot, &Options::default()).unwrap(), AT), WANTED);
+    let material = format!(
+        "material {{ name : leaf }}\nfragment {{\n{HASH} float alphaThreshold(vec3 pos) {{ return hash(pos); }}\n}}\n"
+    );
+    assert_eq!(
+        threshold(&parsed("a.mat", Language::Any, &material, &Options::default()).unwrap(), AT),
+        WANTED
+    );
+    let rust = format!(
+        "const A: &'static str = r#\"{HASH_WGSL}fn alpha_threshold(pos: vec3f) -> f32 {{ return hash(pos); }}\"#;"
+    );
+    assert_eq!(threshold(&parsed("a.rs", Language::Quoted, &rust, &Options::default()).unwrap(), AT), WANTED);
+    // What only the program knows is told.
+    let script = format!(
+        "const a = `{HASH}const float k = ${{scale}};\nfloat alphaThreshold(vec3 pos) {{ return hash(pos) * k; }}`;"
+    );
+    let error = parsed("a.js", Language::Quoted, &script, &Options::default()).unwrap_err();
+    assert!(error.contains("a.js:2:") && error.contains("what stands in `${...}` is left empty"), "{error}");
+    // Types and layouts of extensions.
+    let vulkan = format!(
+        "struct P {{ uint64_t address; float k; }}; layout(push_constant, scalar) uniform B {{ P pc; }};\n{HASH}float threshold(vec3 position) {{ return hash(position) * pc.k; }}"
+    );
+    for (name, value) in [("pc.k", "1"), ("B.pc.k", "1"), ("k", "1")] {
+        assert_eq!(threshold(&glsl(&vulkan, &options(&[(name, value)])).unwrap(), AT), WANTED, "{name}");
+    }
+    let error = glsl(&vulkan, &options(&[])).unwrap_err();
+    assert!(error.contains("`k` of uniform block `B` has no value: --set B.pc.k=VALUE"), "{error}");
+}
+
+#[test]
+fn what_helpers_stand_behind_is_defined() {
+    let text = format!(
+        "#if HASHED\n#define LOW(x) (x)\n#endif\n#ifdef NOISE\n{HASH}#endif\nfloat threshold(vec3 position) {{ return LOW(hash(position)); }}"
+    );
+    let shader = glsl(&text, &options(&[])).unwrap();
+    assert_eq!(threshold(&shader, AT), WANTED);
+    let notes: Vec<_> = shader.notes.iter().map(|note| note.split(',').next().unwrap()).collect();
+    assert!(
+        notes.contains(&"`HASHED` is defined as 1") && notes.contains(&"`NOISE` is defined as 1"),
+        "{notes:?}"
+    );
+    // Another branch defines it: nothing is asked for.
+    let text = format!(
+        "#ifdef FAST\n#define H(p) 0.5\n#else\n#define H(p) hash(p)\n#endif\n{HASH}float threshold(vec3 position) {{ return H(position); }}"
+    );
+    let shader = glsl(&text, &options(&[])).unwrap();
+    assert_eq!((threshold(&shader, AT), shader.notes.len()), (WANTED, 0));
+    // A name that is nowhere, in a branch.
+    let text = format!(
+        "{HASH}float threshold(vec3 position) {{\n#if KIND == BAYER\nreturn bayer(position.xy);\n#else\nreturn hash(position);\n#endif\n}}"
+    );
+    let error = glsl(&text, &options(&[])).unwrap_err();
+    assert!(error.contains("'bayer' (behind `#if KIND == BAYER`: --set NAME=VALUE"), "{error}");
+}
+
+#[test]
+fn the_size_of_the_noise_goes_by_its_own_name() {
+    let text = "uniform float uHashScale; float threshold(vec3 position) { return fract(uHashScale * 0.25 + 0.0 * position.x); }";
+    for (settings, wanted) in [(&[][..], 1.0), (&[("uHashScale", "2")], 2.0), (&[("hash_scale", "2")], 2.0)] {
+        let shader = glsl(text, &options(settings)).unwrap();
+        assert_eq!(
+            (shader.hash_scale(), threshold(&shader, AT)),
+            (Some(wanted), 0.25 * wanted),
+            "{settings:?}"
+        );
+    }
+    for wrong in ["0", "-1", "inf"] {
+        let error = glsl(text, &options(&[("uHashScale", wrong)])).unwrap_err();
+        assert!(error.contains("is finite and above 0"), "{error}");
+    }
+}
+
+#[test]
+fn a_test_that_is_the_wrong_way_around_elsewhere_is_told() {
+    let of = |sign: &str| {
+        let text = format!(
+            "{HASH}in vec3 vPosition;\nfloat alphaThreshold(vec3 pos) {{ return hash(pos); }}\nvoid main() {{ vec4 c = texture(m, uv);\nif (c.a {sign} alphaThreshold(vPosition)) discard; }}"
+        );
+        glsl(&text, &options(&[])).unwrap().notes
+    };
+    assert!(
+        of(">")
+            .iter()
+            .any(|note| note.starts_with("line 5: a fragment is discarded here where `c.a` is above"))
+    );
+    assert!(!of("<").iter().any(|note| note.contains("discarded here")));
+}

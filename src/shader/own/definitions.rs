@@ -26,9 +26,10 @@ pub(super) fn wanted(
     let mut definitions: HashMap<&str, Vec<(usize, Vec<usize>)>> = HashMap::new();
     for item in file.items {
         let tokens: Vec<usize> = item.tokens.clone().filter(|&at| !file.in_directive[at]).collect();
-        let Some(&first) = tokens.first() else { continue };
-        let place = item.function.unwrap_or(first);
         for name in &item.names {
+            // What stands before the name may be behind a condition of its own.
+            let place = item.function.or_else(|| tokens.iter().copied().find(|&at| file.word(at) == *name));
+            let Some(place) = place else { continue };
             definitions.entry(name).or_default().push((file.tokens[place].at.start, tokens.clone()));
         }
     }

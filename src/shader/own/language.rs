@@ -33,6 +33,18 @@ pub fn instead_of(path: &Path) -> Option<&'static str> {
     }
 }
 
+/// Says of a file of an engine what may be missing in it.
+pub(super) fn around(path: &Path) -> Option<&'static str> {
+    match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
+        "usf" | "ush" | "fx" | "fxh" | "fxc" | "shader" | "cginc" | "hlslinc" | "azsl" | "azsli"
+        | "surfshader" => Some(
+            "it may need what its engine puts around it: where -I DIR does not find that, copy the function, and what it calls, into a \
+             file .hlsl",
+        ),
+        _ => None,
+    }
+}
+
 impl Language {
     /// Returns the language that the ending of a file name stands for; nothing where it stands for none, and [`Language::Any`] may do.
     #[must_use]

@@ -115,7 +115,11 @@ pub fn read(path: &Path, options: &Options) -> Result<OwnShader, ShaderError> {
         let size = std::fs::metadata(path).map_or(bytes.len() as u64, |metadata| metadata.len());
         return Err(fail(format!("the file has {size} bytes; at most {LARGEST_FILE} are read")));
     }
-    parse_in(path.parent(), &file, language, &bytes, options)
+    let read = parse_in(path.parent(), &file, language, &bytes, options);
+    read.map_err(|error| match language::around(path).filter(|_| !error.is_absent) {
+        Some(advice) => ShaderError { message: format!("{} ({advice})", error.message), ..error },
+        None => error,
+    })
 }
 
 /// Reads a shader out of memory; `file` is its name in messages. Files that it includes are looked for in [`Options::include`] alone.
@@ -192,15 +196,16 @@ fn read_text(
         let front = isolated(move || front::read_spir_v(&owned))?;
         return Ok((reduced(front, options, BTreeSet::new())?, options.function.clone(), Vec::new()));
     }
-    let (text, fault) = decoded(bytes);
-    *sources = Sources::of(file, text);
+    let (sources_text, fault) = decoded(bytes);
+    *sources = Sources::of(file, sources_text);
     fault?;
     let (asked, mut options) = (options, options.clone());
-    let (text, written) = sections::uncovered(text, &options.function);
+    let (text, written) = sections::uncovered(sources_text, &options.function);
     let text =
         if language == Language::Quoted { quoted::uncovered(&text, &mut options.function)? } else { text };
     // Which function is meant may have been told by the quotes that it stands between.
     let is_told = options.function != asked.function;
+    let gaps = if language == Language::Quoted { quoted::gaps(sources_text, &text) } else { Vec::new() };
     let dialect = match language {
         Language::Wgsl => Dialect::Wgsl,
         Language::Hlsl | Language::Slang => Dialect::Hlsl,
@@ -218,13 +223,28 @@ fn read_text(
     if is_told {
         notes.insert(0, unit::is_taken(&options.function));
     }
+    if !gaps.is_empty() {
+        let lines: Vec<_> = gaps.iter().map(ToString::to_string).collect();
+        notes.push(format!(
+            "what stands in `${{...}}` is left empty, in line {}: only the program knows it",
+            lines.join(", ")
+        ));
+    }
     let read = match dialect {
         Dialect::Wgsl => wgsl::read(&text, &asked),
         Dialect::Glsl => glsl::read(&text, &asked, prelude),
         Dialect::Hlsl if language == Language::Slang => slang::read(&text, &asked, folder),
         Dialect::Hlsl => hlsl::read(&text, &asked),
     };
-    let front = read.map_err(|fault| conditions::with_branch(fault, &text))?;
+    let front = read.map_err(|fault| {
+        let line = fault.at.as_ref().and_then(|at| sources.locate(at.start)).map(|(_, place)| place.line);
+        let fault = conditions::with_branch(fault, &text);
+        let is_unknown = fault.message.starts_with("Unknown") && !gaps.is_empty();
+        let is_gap = is_unknown || line.is_some_and(|line| gaps.contains(&line));
+        let more =
+            if is_gap { " (what stands in `${...}` is left empty: only the program knows it)" } else { "" };
+        Fault { message: fault.message + more, ..fault }
+    })?;
     if dialect == Dialect::Hlsl {
         // What is found from here on has no place in it.
         *sources = Sources::default();

@@ -111,6 +111,18 @@ pub(super) fn uncovered(text: &str, function: &mut String) -> Result<String, Fau
     }
 }
 
+/// The lines of a program, from 1, in which a template that is shown leaves something to it.
+pub(super) fn gaps(text: &str, shown: &str) -> Vec<usize> {
+    let start = shown.len() - shown.trim_start().len();
+    let within = start..shown.trim_end().len();
+    let gaps = text.match_indices("${").map(|(at, _)| at).filter(|at| within.contains(at));
+    // Where the shader is the whole file, `${` is a word of another tool.
+    let hidden = gaps.filter(|&at| shown.as_bytes().get(at) == Some(&b' '));
+    let mut lines: Vec<_> = hidden.map(|at| text[..at].matches('\n').count() + 1).collect();
+    lines.dedup();
+    lines
+}
+
 /// Returns the word in front of the name where a text defines a function: `fn` in WGSL, a type in the others.
 pub(super) fn defined<'t>(text: &'t str, function: &str) -> Option<&'t str> {
     let is_word = |c: char| c.is_alphanumeric() || c == '_';
