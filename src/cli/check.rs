@@ -161,7 +161,9 @@ fn chosen_claims(typed: &[String]) -> Result<Vec<Claim>, Failure> {
 /// Runs the suite and shows on stderr how far it is: a bar on a terminal, elsewhere a line every ten seconds.
 fn tried(claims: &[Claim], subjects: &[Subject<'_>], draw: &Draw) -> Vec<Outcome> {
     let (seed, count, budget) = (draw.seed, subjects.len(), draw.budget.name());
-    let words = format_args!("seed {seed}, budget {budget}, {} claims on {count} subjects", claims.len());
+    let counted = |count: usize, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
+    let (claimed, tried) = (counted(claims.len(), "claim"), counted(count, "subject"));
+    let words = format_args!("seed {seed}, budget {budget}, {claimed} on {tried}");
     output::remark("note", words);
     let trials = (claims.len() * count) as u64;
     let bar = ProgressBar::new(trials);

@@ -35,8 +35,8 @@ pub(super) const FAMILY: &[Specimen] = &[
     },
     Specimen {
         name: "nearest-cell",
-        defect: "a half is added before a cast to an integer, so fine cells do not divide coarse ones, and those at zero are \
-                 twice as wide",
+        defect: "coordinates are rounded to the nearest whole number and not down, so fine cells do not divide coarse ones (by a \
+                 cast to an integer those at zero are twice as wide, too)",
         mend: "round down with floor",
         claim: "exact.cells",
         subject: || {

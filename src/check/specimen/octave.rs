@@ -85,7 +85,7 @@ pub(super) const FAMILY: &[Specimen] = &[
     },
     Specimen {
         name: "natural-logarithm",
-        defect: "the octave comes from a natural logarithm and the cells from exp: their sizes are powers of e",
+        defect: "the octave comes from a natural logarithm, so cells do not follow the size of a pixel by powers of two",
         mend: "use log2 and exp2",
         claim: "stability.translate",
         subject: || {
