@@ -526,3 +526,65 @@ fn a_test_that_is_the_wrong_way_around_elsewhere_is_told() {
     );
     assert!(!of("<").iter().any(|note| note.contains("discarded here")));
 }
+
+#[test]
+fn structures_that_only_an_engine_declares_are_no_obstacle() {
+    let bevy = format!(
+        "#import bevy_pbr::forward_io::{{VertexOutput, FragmentOutput}}\n{HASH_WGSL}@fragment fn fragment(in: VertexOutput, @builtin(front_facing) f: bool) -> FragmentOutput {{\n\
+         var base = pbr_input_from_standard_material(in, f);\nif base.color.a < hash(in.world_position.xyz) {{ discard; }} var out: FragmentOutput; return out; }}"
+    );
+    let shader = wgsl(&bevy, &options(&[])).unwrap();
+    assert_eq!(threshold(&shader, AT), WANTED);
+    assert!(shader.taken.iter().any(|taken| taken.name == "world_position"), "{:?}", shader.taken);
+    let cesium = format!(
+        "{HASH}void fragmentMain(FragmentInput fsInput, inout czm_modelMaterial material) {{ vec3 p = fsInput.attributes.positionMC; if (material.alpha < hash(p)) discard; }}"
+    );
+    assert_eq!(threshold(&glsl(&cesium, &options(&[])).unwrap(), AT), WANTED);
+    let other = cesium.replace("positionMC", "where");
+    assert_eq!(
+        threshold(&glsl(&other, &mapped("fragmentMain", &[("position", "where")])).unwrap(), AT),
+        WANTED
+    );
+}
+
+#[test]
+fn a_program_puts_texts_together() {
+    let python = format!(
+        "HASH = \"\"\"\n{HASH}\"\"\"\nFRAGMENT = \"\"\"\n#version 330\nin vec3 obj_pos;\n%(hash)s\nvoid main() {{ vec4 c = texture(t, uv);\nif (c.a < hash(obj_pos)) discard; }}\n\"\"\" % {{\"hash\": HASH}}\n"
+    );
+    let script = format!(
+        "const common = `{HASH}`;\nconst other = `float unused() {{ return 1.0; }}`;\nconst a = `${{common}}\nfloat alphaThreshold(vec3 pos) {{ return hash(pos); }}`;"
+    );
+    for (file, text) in [("a.py", python), ("a.js", script)] {
+        let shader = parse(file, Language::Quoted, text.as_bytes(), &options(&[]));
+        assert_eq!(threshold(&shader.unwrap_or_else(|error| panic!("{error}")), AT), WANTED, "{file}");
+    }
+}
+
+#[test]
+fn what_a_test_stands_behind_is_told() {
+    let of = |body: &str| {
+        let text = format!("{HASH}in vec3 vPosition; void main() {{ vec4 c = texture(m, uv); {body} }}");
+        glsl(&text, &options(&[])).unwrap().notes.pop().unwrap()
+    };
+    assert!(!of("if (c.a < hash(vPosition)) discard;").contains("stands behind"));
+    assert!(!of("bool gone = c.a < hash(vPosition); if (gone) discard;").contains("stands behind"));
+    let note = of("if (gl_FrontFacing) { if (c.a < hash(vPosition)) discard; }");
+    assert!(note.ends_with("it stands behind `gl_FrontFacing`, elsewhere nothing is looked at"), "{note}");
+    let note = of("if (c.r > 0.5) { return; } if (c.a < hash(vPosition)) discard;");
+    assert!(
+        note.ends_with("it stands behind `c.r > 0.5` where it fails, elsewhere nothing is looked at"),
+        "{note}"
+    );
+    // The wrong way around is a test, and told as that, though no function is named.
+    let text = format!(
+        "{HASH}in vec3 vPosition; void main() {{ vec4 c = texture(m, uv);\nif (c.a > hash(vPosition)) discard; }}"
+    );
+    let error = glsl(&text, &options(&[])).unwrap_err();
+    assert!(error.contains("own.glsl:3:") && error.contains("exchange the two sides"), "{error}");
+    // A hit of a ray is ignored, and a colour that is handed in is not the alpha of a texture.
+    let ray = format!(
+        "{HASH}void any(vec4 color, sampler2D t, vec3 pos) {{ vec4 k = texture(t, pos.xy) * color; if (k.a < hash(pos)) ignoreIntersectionEXT; }}"
+    );
+    assert_eq!(threshold(&glsl(&ray, &named("any")).unwrap(), AT), WANTED);
+}

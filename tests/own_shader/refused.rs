@@ -230,8 +230,8 @@ fn messages_are_in_the_words_of_the_file() {
             "`A` is left over here: the macro of that name in line 1 comes back to itself",
         ),
         (
-            "float threshold() {\n  return fract(vPos.x); }",
-            "own.glsl:2:16: `vPos` has no value: it is declared nowhere",
+            "float threshold() {\n  return fract(vThing.x); }",
+            "own.glsl:2:16: `vThing` has no value: it is declared nowhere",
         ),
         (
             "vec3 glow;\nfloat other() { return glow.x; }\nfloat threshold() { return other(); }",

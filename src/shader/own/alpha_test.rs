@@ -12,8 +12,18 @@ use super::usual::is_alpha;
 use core::ops::Range;
 use std::collections::HashSet;
 
+/// Words by which a fragment, or a hit of a ray, goes.
+const DISCARDS: [&str; 5] =
+    ["discard", "demote", "terminateInvocation", "IgnoreHit", "ignoreIntersectionEXT"];
+
 /// Words by which a texture is read.
-const SAMPLES: [&str; 17] = [
+const SAMPLES: [&str; 23] = [
+    "Texel",
+    "tex2Dlod",
+    "tex2Dbias",
+    "tex2Dgrad",
+    "SAMPLE_TEXTURE2D",
+    "SAMPLE_TEXTURE2D_LOD",
     "texture",
     "texture2D",
     "texture2DLod",
@@ -195,7 +205,7 @@ impl<'s> Search<'_, 's, '_> {
         let here = &self.path.clone()[..];
         let inside = at.start + 1..at.end.saturating_sub(1).max(at.start + 1);
         match body.word(at.start) {
-            "discard" | "demote" | "terminateInvocation" => self.guarded(true),
+            word if DISCARDS.contains(&word) => self.guarded(true),
             "clip" => {
                 let argument = at.start + 2..body.closing(at.start + 1);
                 let Some(minus) = only_minus(body, &argument) else { return Ok(()) };
@@ -309,6 +319,7 @@ impl<'s> Search<'_, 's, '_> {
             return Ok(());
         }
         let Comparison { left, right, holds_below } = comparison;
+        let start = left.start;
         let path = &leading_to(path, left.start)[..];
         let [a, b] = [&left, &right].map(|side| Side::of(self.file, self.body, path, side, self.asked));
         let threshold_is_right = match (a.is_threshold(&b), b.is_threshold(&a)) {
@@ -317,9 +328,11 @@ impl<'s> Search<'_, 's, '_> {
             _ => return Ok(()),
         };
         let (alpha, threshold) = if threshold_is_right { (left, right) } else { (right, left) };
+        let is_read = if threshold_is_right { a.reads_textures } else { b.reads_textures };
         // An alpha that is changed on the way has another threshold than what it is compared with.
         let is_said = self.asked.map.get(ALPHA).is_some_and(|name| name == self.body.written(&alpha));
-        let parameter = self.head.alpha(self.asked).filter(|_| !is_said);
+        // What a texture has is no parameter.
+        let parameter = self.head.alpha(self.asked).filter(|_| !is_said && !is_read);
         if let Some(parameter) = parameter {
             // A threshold that depends on the alpha is another one for each.
             let needed = slice(self.body, path, &threshold).0;
@@ -343,7 +356,18 @@ impl<'s> Search<'_, 's, '_> {
             );
             return Err(Fault::new(message).at(Some(self.body.bytes(&alpha))));
         }
-        self.found = Some(Test { path: path.to_vec(), alpha, threshold });
+        // A condition that the comparison is a part of is no other one, and a variable stands for one.
+        let is_own = |guard: &&Guard<'_>| {
+            let within = comparisons(self.body, guard.condition.clone());
+            !within.iter().any(|part| part.left.start == start)
+        };
+        let said = |guard: &Guard<'_>| {
+            let condition =
+                self.body.written(&guard.condition).split_whitespace().collect::<Vec<_>>().join(" ");
+            format!("`{condition}`{}", if guard.fails { " where it fails" } else { "" })
+        };
+        let behind = self.guards.iter().filter(is_own).map(said).collect();
+        self.found = Some(Test { path: path.to_vec(), alpha, threshold, behind });
         Ok(())
     }
 }
@@ -445,7 +469,8 @@ fn discarding(body: &Body<'_>, list: &[Statement], found: &mut Vec<(Range<usize>
         match &statement.kind {
             Kind::Block(inner) => discarding(body, inner, found),
             Kind::If { condition, accept, reject } => {
-                let discards = |branch: &Statement| branch.at.clone().any(|at| body.word(at) == "discard");
+                let discards =
+                    |branch: &Statement| branch.at.clone().any(|at| DISCARDS.contains(&body.word(at)));
                 found.extend(discards(accept).then(|| (condition.clone(), false)));
                 let otherwise = reject.as_ref().filter(|reject| discards(reject));
                 found.extend(otherwise.map(|_| (condition.clone(), true)));

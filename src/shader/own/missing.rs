@@ -1,7 +1,7 @@
 //! Names that a file reads and does not declare, since its engine declares them: what the user says of them, or what their name says,
 //! is put in.
 
-use super::head::{Dialect, File};
+use super::head::{Dialect, File, Head};
 use super::items::reached;
 use super::options::Options;
 use super::signature::type_of;
@@ -17,6 +17,7 @@ pub(super) fn put_in(file: &File<'_, '_>, asked: &mut Options) -> Vec<(Range<usi
     let first: HashSet<_> = [asked.function.as_str()].into_iter().collect();
     let reached = reached(file.text, file.tokens, file.directives, file.items, first);
     let reached: BTreeSet<String> = reached.into_iter().map(str::to_owned).collect();
+    let foreign = foreign(file);
     let mut edits = Vec::new();
     let mut declared = BTreeMap::new();
     // Looked for once a name, since a file may have many words.
@@ -24,6 +25,25 @@ pub(super) fn put_in(file: &File<'_, '_>, asked: &mut Options) -> Vec<(Range<usi
     for at in 0..file.tokens.len() {
         let word = file.word(at);
         let is_member = at > 0 && file.word(at - 1) == ".";
+        // What a structure of an engine has, however deep.
+        if !is_member && foreign.contains(&(file.tokens[at].function, word)) {
+            let mut last = at;
+            while file.word(last + 1) == "."
+                && is_name(file.word(last + 2))
+                && !is_swizzle(file.word(last + 2))
+            {
+                last += 2;
+            }
+            let own = file.word(last);
+            let said = asked.map.iter().find(|(_, name)| *name == own).map(|(meaning, _)| meaning.clone());
+            let meaning = said.or_else(|| meaning_of(own).map(str::to_owned));
+            if let Some(meaning) = meaning.filter(|_| last > at) {
+                let range = file.tokens[at].at.start..file.tokens[last].at.end;
+                edits.push((range, Put::Words(own.to_owned())));
+                declared.insert(own.to_owned(), meaning);
+            }
+            continue;
+        }
         if !is_name(word)
             || is_member
             || file.in_directive[at]
@@ -32,7 +52,8 @@ pub(super) fn put_in(file: &File<'_, '_>, asked: &mut Options) -> Vec<(Range<usi
         {
             continue;
         }
-        let member = Some(file.word(at + 2)).filter(|member| file.word(at + 1) == "." && is_name(member));
+        let member = Some(file.word(at + 2))
+            .filter(|member| file.word(at + 1) == "." && is_name(member) && !is_swizzle(member));
         let full = member.map(|member| format!("{word}.{member}"));
         let here = |last: usize| file.tokens[at].at.start..file.tokens[last].at.end;
         // A value that is the same everywhere.
@@ -86,6 +107,41 @@ pub(super) fn put_in(file: &File<'_, '_>, asked: &mut Options) -> Vec<(Range<usi
         edits.insert(0, (0..0, Put::Words(lines.join(" ") + "\n")));
     }
     edits
+}
+
+/// Whether a member is made of the components of a vector.
+fn is_swizzle(member: &str) -> bool {
+    (1..=4).contains(&member.len())
+        && (member.bytes().all(|byte| b"xyzw".contains(&byte))
+            || member.bytes().all(|byte| b"rgba".contains(&byte)))
+}
+
+/// Parameters of a type that only an engine declares, each with the function that has it.
+fn foreign<'t>(file: &File<'_, 't>) -> HashSet<(Option<usize>, &'t str)> {
+    const BUILT_IN: [&str; 19] = [
+        "vec", "ivec", "uvec", "bvec", "dvec", "mat", "float", "int", "uint", "bool", "half", "min16", "f32",
+        "f16", "u32", "i32", "sampler", "texture", "Texture",
+    ];
+    let is_structure = |name: &str| {
+        let is_declared = (1..file.tokens.len()).any(|at| {
+            file.word(at) == name && matches!(file.word(at - 1), "struct" | "alias" | "typedef" | "define")
+        });
+        !is_declared
+            && !BUILT_IN.iter().any(|ty| name.starts_with(ty))
+            && name.starts_with(|c: char| c.is_ascii_uppercase())
+    };
+    let heads = file.items.iter().filter_map(|item| Head::of(file, item));
+    let of_head = |head: Head<'t>| {
+        let parameters = head.parameters.into_iter().filter(|parameter| {
+            parameter
+                .tokens
+                .clone()
+                .map(|at| file.word(at))
+                .any(|word| word != parameter.name && is_structure(word))
+        });
+        parameters.map(|parameter| (Some(head.name), parameter.name)).collect::<Vec<_>>()
+    };
+    heads.flat_map(of_head).collect()
 }
 
 /// Whether a text declares a name, as a variable, a parameter, a function, a type or a macro.

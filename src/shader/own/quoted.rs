@@ -85,11 +85,13 @@ pub(super) fn uncovered(text: &str, function: &mut String) -> Result<String, Fau
         defining.retain(discards);
     }
     match defining[..] {
-        [Group { at, shown }] => {
-            let blank = |part: &str| -> String {
-                part.bytes().map(|byte| if byte == b'\n' { '\n' } else { ' ' }).collect()
-            };
-            Ok([&blank(&text[..at.start]), shown.as_str(), &blank(&text[at.end..])].concat())
+        [group] => {
+            let mut bytes: Vec<u8> =
+                text.bytes().map(|byte| if byte == b'\n' { b'\n' } else { b' ' }).collect();
+            for Group { at, shown } in with_helpers(group, &groups) {
+                bytes[at.clone()].copy_from_slice(shown.as_bytes());
+            }
+            Ok(without_placeholders(&String::from_utf8_lossy(&bytes)))
         }
         [] if defined(text, function).is_some() => Ok(text.to_owned()),
         [] => {
@@ -109,6 +111,53 @@ pub(super) fn uncovered(text: &str, function: &mut String) -> Result<String, Fau
             Err(Fault::new(message).at(Some(second.at.start..second.at.start + 1)))
         }
     }
+}
+
+/// A text, and those that define what it calls and does not define: a program puts them together.
+fn with_helpers<'g>(group: &'g Group, groups: &'g [Group]) -> Vec<&'g Group> {
+    let mut all = vec![group];
+    let mut next = 0;
+    while let Some(group) = all.get(next).copied() {
+        next += 1;
+        let known: BTreeSet<String> = all.iter().flat_map(|group| functions(&group.shown)).collect();
+        for name in called(&group.shown).into_iter().filter(|name| !known.contains(name)) {
+            let mut defining = groups.iter().filter(|other| defined(&other.shown, &name).is_some());
+            if let (Some(other), None) = (defining.next(), defining.next())
+                && !all.iter().any(|known| known.at == other.at)
+            {
+                all.push(other);
+            }
+        }
+    }
+    all
+}
+
+/// The names in front of a bracket.
+fn called(text: &str) -> BTreeSet<String> {
+    let Ok(tokens) = tokens(text) else { return BTreeSet::new() };
+    let word = |at: usize| tokens.get(at).map_or("", |token| &text[token.at.clone()]);
+    let is_call = |&at: &usize| {
+        word(at + 1) == "(" && !matches!(word(at), "if" | "for" | "while" | "switch" | "return" | "layout")
+    };
+    (0..tokens.len()).filter(is_call).map(|at| word(at).to_owned()).collect()
+}
+
+/// Blanks the `%(name)s` of Python.
+fn without_placeholders(text: &str) -> String {
+    let mut text = text.to_owned();
+    while let Some(start) = text.find("%(") {
+        let length = text[start..].find(")s").map(|at| at + 2);
+        let is_name = |length: &usize| {
+            text[start + 2..start + length - 2].bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_')
+        };
+        // A remainder of a bracket is no placeholder.
+        let length = length.filter(is_name).unwrap_or(0);
+        if length == 0 {
+            break;
+        }
+        text.replace_range(start..start + length, &" ".repeat(length));
+    }
+    text
 }
 
 /// The lines of a program, from 1, in which a template that is shown leaves something to it.

@@ -22,6 +22,8 @@ pub(super) struct Rewritten {
     pub sides: [String; 2],
     /// Bytes of further comparisons of the same alpha, which are left out.
     pub others: Vec<usize>,
+    /// Conditions that the test stands behind, in words.
+    pub behind: Vec<String>,
 }
 
 /// A test that was found.
@@ -30,6 +32,8 @@ pub(super) struct Test<'s> {
     pub path: Vec<(&'s [Statement], usize)>,
     pub alpha: Range<usize>,
     pub threshold: Range<usize>,
+    /// Conditions that it stands behind, in words.
+    pub behind: Vec<String>,
 }
 
 /// The name of what was `main`, which is another thing in GLSL.
@@ -150,6 +154,14 @@ impl Test<'_> {
             |range: &Range<usize>| body.written(range).split_whitespace().collect::<Vec<_>>().join(" ");
         let sides = [plain(&self.alpha), plain(&self.threshold)];
         let function = if is_main { MAIN.to_owned() } else { asked.function.clone() };
-        Rewritten { blank, edits, function, at: value.start, sides, others: Vec::new() }
+        Rewritten {
+            blank,
+            edits,
+            function,
+            at: value.start,
+            sides,
+            others: Vec::new(),
+            behind: self.behind.clone(),
+        }
     }
 }

@@ -114,6 +114,9 @@ pub(super) fn unit(
         let lines: Vec<_> = test.others.iter().map(|&at| line(at).to_string()).collect();
         note += &format!("; it is compared in line {}, too, which is left out", lines.join(", "));
     }
+    if !test.behind.is_empty() {
+        note += &format!("; it stands behind {}, elsewhere nothing is looked at", test.behind.join(" and "));
+    }
     notes.push(note);
     let text = sources.exchange(&blanked, test.edits);
     cut(&text, dialect, |file| {
@@ -271,7 +274,8 @@ fn meant(file: &File<'_, '_>, asked: &Options) -> Option<String> {
     }
     let has_test = |name: &&&str| {
         let asked = Options { function: (**name).to_owned(), ..asked.clone() };
-        rewritten(file, &asked).is_ok_and(|test| test.is_some())
+        // One that is the wrong way around is told as that.
+        rewritten(file, &asked).map_or(true, |test| test.is_some())
     };
     let tests = || {
         let mut found = functions.iter().filter(has_test);

@@ -13,6 +13,7 @@ const USUAL: [(&str, &[&str]); 10] = [
             "positionos",
             "positionws",
             "positionls",
+            "positionmc",
             "pos",
             "p",
             "co",
@@ -167,7 +168,7 @@ fn plain(name: &str) -> String {
         .rsplit_once('_')
         .filter(|(_, end)| end.bytes().all(|b| b.is_ascii_digit()))
         .map_or(name, |(n, _)| n);
-    let without = ["v_", "u_", "i_", "a_", "g_", "in_", "fs_", "_"]
+    let without = ["variable_", "v_", "u_", "i_", "a_", "g_", "in_", "fs_", "_"]
         .into_iter()
         .find_map(|mark| name.strip_prefix(mark));
     let name = without.unwrap_or(name);

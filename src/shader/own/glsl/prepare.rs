@@ -101,18 +101,29 @@ pub(super) fn prepare(
                 blank(&tokens[index..=index])
             }
             // Of extensions, and without a meaning here.
-            "scalar" | "buffer_reference" if token.parentheses == 1 && word(declaration) == "layout" => {
-                let comma = if word(index + 1) == "," { index + 1 } else { index - 1 };
-                blank(&tokens[index..=index]);
-                if word(comma) == "," {
-                    blank(&tokens[comma..=comma]);
+            "layout" if is_outside => {
+                let close = (index..tokens.len()).find(|&at| word(at) == ")" && tokens[at].parentheses == 0);
+                let inside: Vec<usize> = (index + 2..close.unwrap_or(index + 2)).collect();
+                let is_strange = |part: &&[usize]| {
+                    part.first().is_some_and(|&at| matches!(word(at), "scalar" | "buffer_reference"))
+                };
+                let parts: Vec<&[usize]> = inside.split(|&at| word(at) == ",").collect();
+                if parts.iter().all(|part| is_strange(&part)) {
+                    blank(&tokens[index..=close.unwrap_or(index)]);
+                } else {
+                    for part in parts.iter().filter(|part| is_strange(part)) {
+                        let (first, last) = (part[0], part[part.len() - 1]);
+                        let comma = if word(last + 1) == "," { last + 1 } else { first - 1 };
+                        blank(&tokens[first..=last]);
+                        blank(&tokens[comma..=comma]);
+                    }
                 }
             }
             "varying" | "attribute" if is_outside => {
                 blank(&tokens[index..=index]);
                 bytes[token.at.start..token.at.start + 2].copy_from_slice(b"in");
             }
-            keyword @ ("uniform" | "buffer") if is_outside && index >= uniform_end => {
+            keyword @ ("uniform" | "buffer" | "extern") if is_outside && index >= uniform_end => {
                 let is_precision = matches!(word(index + 1), "highp" | "mediump" | "lowp");
                 let value_type = index + 1 + usize::from(is_precision);
                 if word(value_type + 1) == "{" {
@@ -133,7 +144,7 @@ pub(super) fn prepare(
                         blank(&tokens[value_type + 2..end]);
                     }
                     let is_texture =
-                        word(value_type).contains("sampler") || word(value_type).contains("image");
+                        ["sampler", "image", "Image"].iter().any(|part| word(value_type).contains(part));
                     // Textures with a sampler in them are not read at all; the function cannot use them anyway.
                     blank(&tokens[declaration..=if is_texture { uniform_end } else { index }]);
                     let is_declared = |&at: &usize| {
@@ -170,7 +181,12 @@ pub(super) fn prepare(
 }
 
 /// Types that GLSL calls otherwise, or has in an extension: what shaders for several languages use.
-const OTHER_TYPES: [(&str, &str); 18] = [
+const OTHER_TYPES: [(&str, &str); 22] = [
+    // Of LÖVE and Filament.
+    ("number", "float"),
+    ("HIGHP", ""),
+    ("MEDIUMP", ""),
+    ("LOWP", ""),
     ("uint64_t", "uint"),
     ("int64_t", "int"),
     ("half", "float"),
