@@ -108,7 +108,7 @@ pub(super) fn prepare(
                     part.first().is_some_and(|&at| matches!(word(at), "scalar" | "buffer_reference"))
                 };
                 let parts: Vec<&[usize]> = inside.split(|&at| word(at) == ",").collect();
-                if parts.iter().all(|part| is_strange(&part)) {
+                if parts.iter().all(is_strange) {
                     blank(&tokens[index..=close.unwrap_or(index)]);
                 } else {
                     for part in parts.iter().filter(|part| is_strange(part)) {
