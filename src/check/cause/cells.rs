@@ -51,10 +51,10 @@ pub(super) struct Faces {
     pub of_two: bool,
 }
 
-/// The octave at which the hash changes within its cells, where that of the other does not.
+/// Whether the hash of the finer octave changes within its cells, where that of the coarser one does not. The other way around the coarser
+/// cell, which is looked at first, has no faces.
 pub(super) fn uncut(probe: &Probe<'_>, rng: &mut Xoshiro256PlusPlus) -> Option<Found> {
     const FINER: Slip = named("finer-cells-uncut");
-    const COARSER: Slip = named("coarser-cells-uncut");
     const PAIRS: usize = 192;
     /// Two places of one cell, in a half of it, and how many of them have one threshold.
     const CUT: f64 = 0.9;
@@ -66,17 +66,12 @@ pub(super) fn uncut(probe: &Probe<'_>, rng: &mut Xoshiro256PlusPlus) -> Option<F
         .map(|at| [at, at + 0.1])
         .collect();
     let [coarser, finer] = [ALONE, 1.0 - ALONE].map(|lean| Probe { lean, ..*probe }.share(&pairs));
-    let slip = match (coarser, finer) {
-        (coarser, finer) if coarser > CUT && finer < UNCUT => FINER,
-        (coarser, finer) if finer > CUT && coarser < UNCUT => COARSER,
-        _ => return None,
-    };
     let shown = format!(
         "of {PAIRS} pairs of places in one cell {:.0} % have one threshold at the coarser scale and {:.0} % at the finer one",
         100.0 * coarser,
         100.0 * finer
     );
-    Some(found(slip, shown))
+    (coarser > CUT && finer < UNCUT).then(|| found(FINER, shown))
 }
 
 fn index(rng: &mut Xoshiro256PlusPlus) -> f64 {

@@ -78,11 +78,6 @@ const OTHERS: &[Slip] = &[
         mend: "take floor of the position at both scales",
     },
     Slip {
-        name: "coarser-cells-uncut",
-        defect: "the position is cut to cells at the finer scale only: the hash at the coarser one changes within its cells",
-        mend: "take floor of the position at both scales",
-    },
-    Slip {
         name: "first-case-wrong",
         defect: "the first case of Eq. 2 (x below a) is another formula; the other two are right",
         mend: "x * x / (2 * a * (1 - a)) where x < a, with a = min(lerp factor, 1 - lerp factor)",
