@@ -6,11 +6,12 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Functions without a namesake, and why.
-const EXCEPTIONS: [(&str, &str); 6] = [
+const EXCEPTIONS: [(&str, &str); 7] = [
     ("drawn_pcg", "`pcg` under a name that the text in front of it has not"),
     ("hash_cell", "the hash that was chosen; in Rust the method `hash` of each"),
     ("mirrored", "`u32::reverse_bits` of the standard library; not every language has it"),
     ("murmur_words", "`murmur3`: names in shader text end in no digit"),
+    ("permutation", "`Permutation::drawn`"),
     ("rotated_left", "`u32::rotate_left` of the standard library"),
     ("saturated", "`Real::to_i32`: names in shader text end in no digit"),
 ];

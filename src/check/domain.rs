@@ -1,8 +1,11 @@
 //! The domain of a claim: what of all footprints, frames and layers it has sampled, as it was measured.
 
 use crate::scene::Fragment;
+use crate::threshold::real::Real;
 use core::fmt;
 use core::ops::RangeInclusive;
+use glam::DVec3;
+use rayon::prelude::*;
 use std::collections::BTreeSet;
 
 /// Frames that are told apart; more of them would only be counted.
@@ -87,6 +90,8 @@ pub struct Domain {
     pub layers: Levels,
     /// Frames, up to 4096 of them.
     pub frames: BTreeSet<u32>,
+    /// The one that was added last: most fragments have that of the one before.
+    last_frame: Option<u32>,
     /// Hash scales, as bits of `f64`.
     hash_scales: BTreeSet<u64>,
     /// Smallest and largest pixel coordinate along both axes.
@@ -95,9 +100,24 @@ pub struct Domain {
     pub texcoords: Option<[f64; 2]>,
 }
 
+/// Fragments that one thread looks at in turn.
+const AT_ONCE: usize = 1 << 14;
+
 impl Domain {
-    /// Adds what a subject of a hash scale is asked for.
-    pub(crate) fn add(&mut self, fragment: &Fragment, hash_scale: f64) {
+    /// Adds what a subject of a hash scale is asked for; the same on any number of threads.
+    pub(crate) fn add_all<F: Copy + Into<Fragment> + Sync>(&mut self, fragments: &[F], hash_scale: f64) {
+        let of = |fragments: &[F]| {
+            let mut domain = Self::default();
+            domain.hash_scales.insert(hash_scale.to_bits());
+            fragments.iter().for_each(|&fragment| domain.add(&fragment.into(), hash_scale));
+            domain
+        };
+        let parts: Vec<Self> = fragments.par_chunks(AT_ONCE).map(of).collect();
+        parts.iter().for_each(|part| self.extend(part));
+    }
+
+    #[inline(always)]
+    fn add(&mut self, fragment: &Fragment, hash_scale: f64) {
         self.n += 1;
         let footprint = &fragment.footprint;
         let lengths = [footprint.dpdx.length(), footprint.dpdy.length()];
@@ -111,32 +131,36 @@ impl Domain {
                 self.ratios.add(if ratio < 1.0 { -floor_log2(1.0 / ratio) } else { floor_log2(ratio) });
             }
         }
-        let components = footprint.dpdx.to_array().into_iter().chain(footprint.dpdy.to_array());
-        let zeros = components.enumerate().map(|(place, c)| u64::from(c == 0.0) << place).sum::<u64>();
-        self.zeros |= 1 << zeros;
-        let position = footprint.position;
-        let distance = position.abs().max_element();
+        let zeros = |v: DVec3| u64::from(v.cmpeq(DVec3::ZERO).bitmask());
+        self.zeros |= 1 << (zeros(footprint.dpdx) | zeros(footprint.dpdy) << 3);
+        let position = footprint.position.abs();
+        let distance = position.max_element();
         if distance > 0.0 && distance.is_finite() {
             self.distances.add(floor_log2(distance));
-            let signs = position.to_array().map(|c| usize::from(c < 0.0));
-            self.octants |= 1 << (signs[0] | signs[1] << 1 | signs[2] << 2);
-            let is_small = |c: &f64| c.abs() * 1024.0 < distance;
-            if position.to_array().iter().filter(|c| is_small(c)).count() == 2
-                && let Some(axis) = position.to_array().iter().position(|c| !is_small(c))
-            {
-                self.half_axes |= 1 << (axis + 3 * signs[axis]);
+            let signs = footprint.position.cmplt(DVec3::ZERO).bitmask();
+            self.octants |= 1 << signs;
+            let large = (position * 1024.0).cmpge(DVec3::splat(distance)).bitmask();
+            if large.is_power_of_two() {
+                let axis = large.trailing_zeros();
+                self.half_axes |= 1 << (axis + 3 * (signs >> axis & 1));
             }
         }
         if fragment.lod.is_finite() {
-            self.lods.add(fragment.lod.floor() as i32);
+            self.lods.add(Real::floor(fragment.lod) as i32);
         }
         self.layers.add(i32::try_from(fragment.layer).unwrap_or(i32::MAX));
-        if self.frames.len() < FRAMES_LIMIT {
-            self.frames.insert(fragment.frame);
+        if self.last_frame != Some(fragment.frame) {
+            self.last_frame = Some(fragment.frame);
+            self.add_frame(fragment.frame);
         }
-        self.hash_scales.insert(hash_scale.to_bits());
         widen(&mut self.pixels, fragment.pixel.to_array());
         widen(&mut self.texcoords, fragment.texcoord.to_array());
+    }
+
+    fn add_frame(&mut self, frame: u32) {
+        if self.frames.len() < FRAMES_LIMIT {
+            self.frames.insert(frame);
+        }
     }
 
     /// Adds what another part of the same claim, or the same claim on another subject, has sampled.
@@ -150,7 +174,7 @@ impl Domain {
         self.zeros |= other.zeros;
         self.lods.extend(other.lods);
         self.layers.extend(other.layers);
-        self.frames.extend(&other.frames);
+        other.frames.iter().for_each(|&frame| self.add_frame(frame));
         self.hash_scales.extend(&other.hash_scales);
         other.pixels.into_iter().for_each(|ends| widen(&mut self.pixels, ends));
         other.texcoords.into_iter().for_each(|ends| widen(&mut self.texcoords, ends));
@@ -241,14 +265,26 @@ fn widen(ends: &mut Option<[f64; 2]>, values: [f64; 2]) {
 
 /// The greatest whole number not above log2 of a positive finite number.
 fn floor_log2(x: f64) -> i32 {
-    libm::frexp(x).1 - 1
+    const MANTISSA: u32 = f64::MANTISSA_DIGITS - 1;
+    if x < f64::MIN_POSITIVE {
+        libm::frexp(x).1 - 1
+    } else {
+        (x.to_bits() >> MANTISSA) as i32 - f64::MAX_EXP + 1
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::threshold::footprint::Footprint;
-    use glam::{DVec3, dvec3};
+    use glam::dvec3;
+
+    #[test]
+    fn the_exponent_is_that_of_the_logarithm() {
+        for x in [1.0, 1.9, 2.0, 0.75, 3e300, 1e-300, 4e-320, f64::MIN_POSITIVE] {
+            assert_eq!(floor_log2(x), libm::frexp(x).1 - 1, "{x:e}");
+        }
+    }
 
     #[test]
     fn levels_are_told_as_ranges() {
@@ -263,9 +299,9 @@ mod tests {
         let mut domain = Domain::default();
         let footprint =
             Footprint { position: dvec3(-300.0, 0.01, 0.02), dpdx: DVec3::X * 0.125, dpdy: DVec3::Z * 0.02 };
-        domain.add(&Fragment { lod: -0.5, layer: 2, ..Fragment::from(footprint) }, 1.0);
-        domain
-            .add(&Fragment { frame: 9, ..Fragment::from(Footprint { dpdx: DVec3::ZERO, ..footprint }) }, 2.0);
+        domain.add_all(&[Fragment { lod: -0.5, layer: 2, ..Fragment::from(footprint) }], 1.0);
+        let still = Footprint { dpdx: DVec3::ZERO, ..footprint };
+        domain.add_all(&[Fragment { frame: 9, ..Fragment::from(still) }], 2.0);
         assert_eq!(
             domain.to_string(),
             "octaves 3..4; |p| 2^(8), 1 octants and 1 half axes; ratios 2^(2), zero dpdx, along y; lod -1..0; layers 0, 2; \

@@ -6,7 +6,7 @@ use crate::threshold::batch::{BLOCK, Batch, ColumnBuffer, Lane, Model};
 use crate::threshold::footprint::Footprint;
 use crate::threshold::hash::{Hash, HashKind};
 use crate::threshold::hashed::HashedAlpha;
-use crate::threshold::real::Real;
+use crate::threshold::real::{Real, power_of_two};
 use crate::threshold::robust::scales::{self, Scales};
 use crate::threshold::robust::{Join, Repair, Repairs, Robust};
 use crate::threshold::stage::stratify::{alternating, stratified};
@@ -359,10 +359,11 @@ impl<'a> Subject<'a> {
         answer
     }
 
-    fn note<F: Copy + Into<Fragment>>(&self, fragments: &[F]) {
+    fn note<F: Copy + Into<Fragment> + Sync>(&self, fragments: &[F]) {
         if let Some(asked) = &self.asked {
-            let mut domain = asked.lock().unwrap_or_else(PoisonError::into_inner);
-            fragments.iter().for_each(|&fragment| domain.add(&fragment.into(), self.hash_scale));
+            let mut domain = Domain::default();
+            domain.add_all(fragments, self.hash_scale);
+            asked.lock().unwrap_or_else(PoisonError::into_inner).extend(&domain);
         }
     }
 
@@ -625,7 +626,7 @@ impl<'a> Subject<'a> {
             let index: [R; 3] = scales::nested_cell::<R>(footprint.position, octave, grid).index.into();
             DVec3::from_array(index.map(R::to_f64))
         };
-        let per_unit = |octave: [i32; 3]| octave.map(|k| libm::ldexp(1.0, k));
+        let per_unit = |octave: [i32; 3]| octave.map(power_of_two);
         let lerp_factor = if self.variant == Variant::Anisotropic {
             scales::corner_weight(found.fraction)
         } else {

@@ -291,7 +291,7 @@ pub struct CompareArgs {
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
-  hashed-alpha cost                       every tier of sine, hash and threshold; pictures of the fronts in report/
+  hashed-alpha cost                       every tier of sine, hash and threshold; report/cost.svg answers in one picture
   hashed-alpha cost --quick --out /dev/shm/cost
   hashed-alpha cost --json | jq -c 'select(.name == \"literal\") | [.tier, .isa, .ratio, .bits_equal]'
   hashed-alpha cost --effects             what each effect of the paper adds, and Table 1 beside it
@@ -315,8 +315,9 @@ pub struct CostArgs {
     /// Measure the time of a frame against triangles and pixels, with and without rays, on all threads
     #[arg(long, conflicts_with_all = ["effects", "sizes"])]
     pub drawing: bool,
-    /// Write the table into this page, too, between its lines `<!-- cost --drawing -->` and `<!-- end of cost --drawing -->`
-    #[arg(long, value_name = "FILE", requires = "drawing")]
+    /// Write the table into this page, too, between its lines `<!-- cost -->` and `<!-- end of cost -->`, and the first picture beside
+    /// it; with --drawing between `<!-- cost --drawing -->` and `<!-- end of cost --drawing -->`
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["effects", "sizes"])]
     pub page: Option<PathBuf>,
     /// A few seconds, to see that all of it works; the figures are rough
     #[arg(long)]

@@ -57,6 +57,12 @@ fn of_accuracy(args: &CostArgs, effort: Effort) -> Result<Ending, Failure> {
     for (name, svg) in pictures::ladder(&rows) {
         written(&args.out, name, &svg)?;
     }
+    if let Some(path) = &args.page {
+        let folder = path.parent().unwrap_or_else(|| Path::new(""));
+        let (name, svg) = pictures::thresholds(&rows);
+        written(folder, name, &svg)?;
+        into_page(path, "cost", &table::thresholds(&rows).markdown())?;
+    }
     print(args, &table.aligned(), |out| json::write_ladder(&rows, out))
 }
 
@@ -134,19 +140,24 @@ fn of_drawing(args: &CostArgs, effort: Effort) -> Result<Ending, Failure> {
     let table = table::drawings(&found);
     written(&args.out, "cost-drawing.csv", &table.csv())?;
     if let Some(path) = &args.page {
-        let place = || path.display().to_string();
-        let text = std::fs::read_to_string(path).map_err(|source| Failure::File {
-            action: "read",
-            place: place(),
-            source,
-        })?;
-        let page = page::replaced(&text, "cost --drawing", &table.markdown()).ok_or_else(|| {
-            let marks = "`<!-- cost --drawing -->` and `<!-- end of cost --drawing -->`";
-            Failure::Usage(format!("{} does not have the lines {marks}", place()))
-        })?;
-        write_atomically(path, page.as_bytes())?;
+        into_page(path, "cost --drawing", &table.markdown())?;
     }
     print(args, &table.aligned(), |out| json::write_drawings(&found, out))
+}
+
+/// Writes a table between its marks in a page.
+fn into_page(path: &Path, mark: &str, table: &str) -> Result<(), Failure> {
+    let place = || path.display().to_string();
+    let text = std::fs::read_to_string(path).map_err(|source| Failure::File {
+        action: "read",
+        place: place(),
+        source,
+    })?;
+    let page = page::replaced(&text, mark, table).ok_or_else(|| {
+        let marks = format!("`<!-- {mark} -->` and `<!-- end of {mark} -->`");
+        Failure::Usage(format!("{} does not have the lines {marks}", place()))
+    })?;
+    Ok(write_atomically(path, page.as_bytes())?)
 }
 
 fn written(folder: &Path, name: &str, text: &str) -> Result<(), Failure> {

@@ -49,7 +49,7 @@ mod tests {
         let [first, second, ..] = &mut outcomes[..] else { panic!("two outcomes") };
         second.check = first.check;
         for (outcome, scene) in [first, second].into_iter().zip(Scene::all()) {
-            scene.fragments().step_by(1000).for_each(|fragment| outcome.domain.add(&fragment, 1.0));
+            scene.fragments().step_by(1000).for_each(|fragment| outcome.domain.add_all(&[fragment], 1.0));
         }
         let found = rows(&outcomes);
         assert_eq!(found.len(), 1);

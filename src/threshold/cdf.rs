@@ -70,11 +70,14 @@ pub fn minor_weight<R: Real>(lerp_factor: R) -> R {
 pub fn cdf_literal<R: Real>(x: R, lerp_factor: R) -> R {
     let [half, one, two] = [0.5, 1.0, 2.0].map(R::from_f64);
     let a = minor_weight(lerp_factor);
-    if x < one - a {
-        if x < a { x * x / (two * a * (one - a)) } else { (x - half * a) / (one - a) }
-    } else {
-        one - ((one - x) * (one - x) / (two * a * (one - a)))
-    }
+    let below = x < one - a;
+    let from_edge = if below { x } else { one - x };
+    let middle = below & (x >= a);
+    // One division for the three cases, which no machine foretells.
+    let numerator = if middle { x - half * a } else { from_edge * from_edge };
+    let divisor = if middle { one - a } else { two * a * (one - a) };
+    let quotient = numerator / divisor;
+    if below { quotient } else { one - quotient }
 }
 
 /// Evaluates Eq. 2 at `x` in [0, 1] without a division by zero.
@@ -87,14 +90,19 @@ pub fn cdf_literal<R: Real>(x: R, lerp_factor: R) -> R {
 pub fn cdf<R: Real>(x: R, lerp_factor: R) -> R {
     let [half, one] = [0.5, 1.0].map(R::from_f64);
     let a = minor_weight(lerp_factor);
-    let b = one - a;
     let from_top = one - x;
-    if x < a {
-        half * x * ((x / a) / b)
-    } else if from_top < a {
-        one - half * from_top * ((from_top / a) / b)
+    let low = x < a;
+    let edge = low | (from_top < a);
+    let from_edge = if low { x } else { from_top };
+    // Two divisions for the three cases, which no machine foretells.
+    let quotient = (if edge { from_edge / a } else { x - half * a }) / (one - a);
+    let at_edge = half * from_edge * quotient;
+    if !edge {
+        quotient
+    } else if low {
+        at_edge
     } else {
-        (x - half * a) / b
+        one - at_edge
     }
 }
 

@@ -12,6 +12,7 @@
 //! | [`FlushToZero`] | subnormal results are replaced by zero |
 //! | [`Fused`] | a product that is added to or subtracted from something is not rounded before |
 
+use super::normal::{normal_cdf_f32, normal_quantile_f32};
 use super::real::{Real, exp2_f32, log2_f32, sealed::Sealed, sin_f32};
 use core::cmp::Ordering;
 use core::fmt::{self, Debug, Display};
@@ -298,8 +299,15 @@ impl<A: Arithmetic> Real for Emulated<A> {
     fn to_word(self) -> u32 {
         self.value.to_word()
     }
+    fn small_word(self) -> u32 {
+        self.value.small_word()
+    }
     fn to_i32(self) -> i32 {
         self.value.to_i32()
+    }
+    const SMALL: Self = Self { value: <f32 as Real>::SMALL, factors: None, arithmetic: PhantomData };
+    fn nearest(self) -> Self {
+        Self::held(self.value.round_ties_even())
     }
     fn floor(self) -> Self {
         Self::held(self.value.floor())
@@ -319,8 +327,18 @@ impl<A: Arithmetic> Real for Emulated<A> {
     fn log2(self) -> Self {
         Self::rounded(f64::from(log2_f32(self.value)))
     }
+    fn exponent_and_log2(self) -> (i32, Self) {
+        let (exponent, log) = self.value.exponent_and_log2();
+        (exponent, Self::rounded(f64::from(log)))
+    }
     fn exp2(self) -> Self {
         Self::rounded(f64::from(exp2_f32(self.value)))
+    }
+    fn normal_quantile(self) -> Self {
+        Self::rounded(f64::from(normal_quantile_f32(self.value)))
+    }
+    fn normal_cdf(self) -> Self {
+        Self::rounded(f64::from(normal_cdf_f32(self.value)))
     }
     fn is_nan(self) -> bool {
         self.value.is_nan()

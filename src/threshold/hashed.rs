@@ -94,9 +94,12 @@ impl<H> HashedAlpha<H> {
         H: Hash<R>,
     {
         let two_scale = self.variant.two_scale(footprint, R::from_f64(self.hash_scale));
-        let at_floor = self.hash.hash(&two_scale.floor_cell);
         let interpolates = self.variant != Variant::Single;
-        let at_ceil = if interpolates { self.hash.hash(&two_scale.ceil_cell) } else { at_floor };
+        let [at_floor, at_ceil] = if interpolates {
+            self.hash.hash_all([two_scale.floor_cell, two_scale.ceil_cell])
+        } else {
+            [self.hash.hash(&two_scale.floor_cell); 2]
+        };
         let lerp_factor = two_scale.lerp_factor;
         let interpolated = if interpolates {
             (R::from_f64(1.0) - lerp_factor) * at_floor + lerp_factor * at_ceil

@@ -23,6 +23,7 @@ pub mod batch;
 pub mod cdf;
 pub mod choice;
 pub mod emulated;
+mod exponent;
 pub mod fixed;
 pub mod footprint;
 pub mod hash;

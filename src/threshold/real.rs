@@ -9,6 +9,8 @@
 //! Together with IEEE arithmetic in the order of the listing and without contraction, this fixes one meaning for
 //! every `f32` threshold, the *reference semantics R32*.
 
+use super::exponent::exponent_and_mantissa;
+use super::normal::{QUANTILE_EDGE, normal_cdf, normal_cdf_f32, normal_quantile, normal_quantile_f32};
 use core::fmt::{Debug, Display};
 use core::ops::{Add, Div, Mul, Neg, Sub};
 use core::str::FromStr;
@@ -61,23 +63,28 @@ pub trait Real:
     #[must_use]
     fn to_word(self) -> u32;
 
+    /// The same for an integral value of a magnitude below [`Real::SMALL`]; any word for others.
+    #[must_use]
+    fn small_word(self) -> u32;
+
     /// Converts an integral value to `i32`, saturating; NaN gives 0.
     #[must_use]
     fn to_i32(self) -> i32;
 
+    /// Numbers of a magnitude below this have a nearest whole number by [`Real::nearest`].
+    const SMALL: Self;
+
+    /// Returns the integral value that is nearest to `self`, the even one of two, where the magnitude of `self` is below
+    /// [`Real::SMALL`]; any number elsewhere.
+    #[must_use]
+    fn nearest(self) -> Self;
+
     /// Returns the largest integral value that is not above `self`.
+    ///
+    /// By sums and not by the standard library, whose function is a call where a machine is not known to round by an
+    /// instruction.
     #[must_use]
     fn floor(self) -> Self;
-
-    /// Returns the same as [`Real::floor`], bit for bit, by a conversion to a whole number and back.
-    ///
-    /// Where a machine is not known to round by an instruction, `floor` is a call that takes longer; in vector code that is compiled
-    /// for such machines it is one instruction.
-    #[inline]
-    #[must_use]
-    fn floor_by_conversion(self) -> Self {
-        self.floor()
-    }
 
     /// Returns the smallest integral value that is not below `self`.
     #[must_use]
@@ -97,17 +104,41 @@ pub trait Real:
     #[must_use]
     fn sin(self) -> Self;
 
+    /// Returns the sines of several angles, those of [`Real::sin`]; in `f32` side by side.
+    #[inline(always)]
+    #[must_use]
+    fn sin_all<const N: usize>(angles: [Self; N]) -> [Self; N] {
+        angles.map(Self::sin)
+    }
+
     /// Returns the logarithm to base two; NaN below zero, -inf at zero.
     ///
     /// `f32`: correctly rounded for every argument (see [`log2_f32`]). `f64`: libm's, below 1 ULP.
     #[must_use]
     fn log2(self) -> Self;
 
+    /// Takes a positive normal number apart: its exponent, and the logarithm to base two of its mantissa in [1, 2), which is
+    /// in [0, 1].
+    #[must_use]
+    fn exponent_and_log2(self) -> (i32, Self);
+
     /// Returns two to the power of `self`; exact for integral arguments in range.
     ///
     /// `f32`: correctly rounded for every argument (see [`exp2_f32`]). `f64`: libm's, below 1 ULP.
     #[must_use]
     fn exp2(self) -> Self;
+
+    /// Returns the normal quantile of a value in [0, 1], of which what is outside [2^-25, 1 - 2^-25] counts as these ends.
+    ///
+    /// `f32`: by [`normal_quantile_f32`]. `f64`: by [`normal_quantile`].
+    #[must_use]
+    fn normal_quantile(self) -> Self;
+
+    /// Returns the probability that a standard normal variable is at most `self`.
+    ///
+    /// `f32`: by [`normal_cdf_f32`]. `f64`: by [`normal_cdf`].
+    #[must_use]
+    fn normal_cdf(self) -> Self;
 
     /// Returns true for NaN.
     #[must_use]
@@ -151,38 +182,45 @@ pub trait Real:
 
 /// Implements the part of [`Real`] that is the same text for both types.
 macro_rules! shared_items {
-    ($real:ty, $vec3:ty, $integer:ty) => {
+    ($real:ty, $vec3:ty) => {
         type Vec3 = $vec3;
         const NAME: &'static str = stringify!($real);
         const MAX_EXPONENT: i32 = <$real>::MAX_EXP - 1;
 
         #[inline]
-
         fn to_word(self) -> u32 {
-            self as i64 as u32
+            if self.abs() < Self::SMALL { self.small_word() } else { self as i64 as u32 }
+        }
+        #[inline(always)]
+        fn small_word(self) -> u32 {
+            /// Added to a whole number up to a third of it, leaves that number in the low bits.
+            const TO_INTEGER: $real = 1.5 / <$real>::EPSILON;
+            (self + TO_INTEGER).to_bits().wrapping_sub(TO_INTEGER.to_bits()) as u32
         }
         #[inline]
         fn to_i32(self) -> i32 {
             self as i32
         }
+        const SMALL: Self = 0.5 / <$real>::EPSILON;
         #[inline]
-        fn floor(self) -> Self {
-            <$real>::floor(self)
+        fn nearest(self) -> Self {
+            /// Beside this number there are no others than whole ones.
+            const SHIFT: $real = 1.5 / <$real>::EPSILON;
+            (self + SHIFT) - SHIFT
         }
         #[inline]
-        fn floor_by_conversion(self) -> Self {
-            let is_small = self.abs() < 1.0 / <$real>::EPSILON;
-            if !is_small {
-                // Whole numbers, infinities and NaN.
-                return self;
+        fn floor(self) -> Self {
+            if self.abs() < Self::SMALL {
+                // Minus zero keeps its sign, which every other number below zero has anyway.
+                let sign = self.to_bits() & (-0.0 as $real).to_bits();
+                <$real>::from_bits(floor_of_small(self).to_bits() | sign)
+            } else {
+                <$real>::floor(self)
             }
-            let whole = self as $integer as $real;
-            // Minus zero keeps its sign.
-            (if whole > self { whole - 1.0 } else { whole }).copysign(self)
         }
         #[inline]
         fn ceil(self) -> Self {
-            <$real>::ceil(self)
+            -Real::floor(-self)
         }
         #[inline]
         fn abs(self) -> Self {
@@ -204,7 +242,7 @@ macro_rules! shared_items {
 }
 
 impl Real for f32 {
-    shared_items!(f32, glam::Vec3, i32);
+    shared_items!(f32, glam::Vec3);
 
     #[inline]
     fn from_f64(value: f64) -> Self {
@@ -218,18 +256,39 @@ impl Real for f32 {
     fn sin(self) -> Self {
         sin_f32(self)
     }
+    #[inline(always)]
+    fn sin_all<const N: usize>(angles: [Self; N]) -> [Self; N] {
+        let mut all_within = true;
+        for angle in angles {
+            all_within &= angle.abs() <= SIN_F32_DOMAIN;
+        }
+        if all_within { angles.map(sin_in_domain::<false>) } else { angles.map(sin_f32) }
+    }
     #[inline]
     fn log2(self) -> Self {
         log2_f32(self)
+    }
+    #[inline(always)]
+    fn exponent_and_log2(self) -> (i32, Self) {
+        let (exponent, mantissa) = exponent_and_mantissa(self);
+        (exponent, log2_of_normal::<false>(mantissa, 0))
     }
     #[inline]
     fn exp2(self) -> Self {
         exp2_f32(self)
     }
+    #[inline(always)]
+    fn normal_quantile(self) -> Self {
+        normal_quantile_f32(self)
+    }
+    #[inline(always)]
+    fn normal_cdf(self) -> Self {
+        normal_cdf_f32(self)
+    }
 }
 
 impl Real for f64 {
-    shared_items!(f64, glam::DVec3, i64);
+    shared_items!(f64, glam::DVec3);
 
     #[inline]
     fn from_f64(value: f64) -> Self {
@@ -248,9 +307,29 @@ impl Real for f64 {
         libm::log2(self)
     }
     #[inline]
+    fn exponent_and_log2(self) -> (i32, Self) {
+        let (half_mantissa, exponent) = libm::frexp(self);
+        (exponent - 1, libm::log2(2.0 * half_mantissa))
+    }
+    #[inline]
     fn exp2(self) -> Self {
         libm::exp2(self)
     }
+    #[inline]
+    fn normal_quantile(self) -> Self {
+        normal_quantile(Real::clamp(self, QUANTILE_EDGE, 1.0 - QUANTILE_EDGE))
+    }
+    #[inline]
+    fn normal_cdf(self) -> Self {
+        normal_cdf(self)
+    }
+}
+
+/// Returns the floor of a number of a magnitude below [`Real::SMALL`], 0 for minus zero; any number elsewhere, NaN for NaN.
+#[inline(always)]
+pub(super) fn floor_of_small<R: Real>(x: R) -> R {
+    let nearest = x.nearest();
+    if nearest > x { nearest - R::from_f64(1.0) } else { nearest }
 }
 
 /// Returns two to a whole power, exactly; 0 below and infinity above the range of `f64`.
@@ -381,8 +460,18 @@ pub(super) fn log2_near_one<const FUSED: bool>(m: f64, exponent: f64) -> f64 {
 /// The `f64` value of libm rounded to `f32` is wrong for two arguments of all; they are listed.
 ///
 /// Not in the paper: WGSL allows 3 + 2|x| ULP here.
+#[inline]
 #[must_use]
 pub fn exp2_f32(x: f32) -> f32 {
+    // Those of octaves need no more than an exponent.
+    if x.abs() <= 126.0 && x.nearest() == x {
+        f32::from_bits((x.to_word().wrapping_add(127)) << 23)
+    } else {
+        exp2_anywhere(x)
+    }
+}
+
+fn exp2_anywhere(x: f32) -> f32 {
     match x.to_bits() {
         0x3b42_9d37 => f32::from_bits(0x3f80_4385),
         0xbcf3_a937 => f32::from_bits(0x3f7a_c6b1),
@@ -422,17 +511,18 @@ mod tests {
             [0.0, 0.5, 1.0, 1.5, 4_194_303.5, 8_388_607.5, 8_388_608.0, 1.0e20, 1.0e-40, f32::INFINITY];
         let near = edges.into_iter().flat_map(|x| [x, x.next_up(), x.next_down()]);
         for x in near.flat_map(|x| [x, -x]).filter(|x| !x.is_nan()) {
-            assert_eq!(x.floor_by_conversion().to_bits(), x.floor().to_bits(), "{x:e}");
+            assert_eq!(Real::floor(x).to_bits(), x.floor().to_bits(), "{x:e}");
             for x in
                 [f64::from(x), f64::from(x) * 536_870_912.0, f64::from(x).next_up(), f64::from(x).next_down()]
             {
-                assert_eq!(x.floor_by_conversion().to_bits(), x.floor().to_bits(), "{x:e}");
+                assert_eq!(Real::floor(x).to_bits(), x.floor().to_bits(), "{x:e}");
             }
         }
-        assert!(f32::NAN.floor_by_conversion().is_nan() && f64::NAN.floor_by_conversion().is_nan());
+        assert!(Real::floor(f32::NAN).is_nan() && Real::floor(f64::NAN).is_nan());
         for bits in (0..=u32::MAX).step_by(65_521) {
             let x = f32::from_bits(bits);
-            assert!(x.is_nan() || x.floor_by_conversion().to_bits() == x.floor().to_bits(), "{x:e}");
+            assert!(x.is_nan() || Real::floor(x).to_bits() == x.floor().to_bits(), "{x:e}");
+            assert!(x.is_nan() || Real::ceil(x).to_bits() == x.ceil().to_bits(), "{x:e}");
         }
     }
 

@@ -220,7 +220,7 @@ impl Texture {
             Filter::Nearest => {
                 let level = &self.levels[nearest()];
                 let [x, y] = [0, 1].map(|axis| {
-                    let along = (place[axis] * level.size[axis] as f32).floor_by_conversion();
+                    let along = Real::floor(place[axis] * level.size[axis] as f32);
                     self.wrap.texel(along as i64, level.size[axis])
                 });
                 texel(level, level.index(x, y))
@@ -280,7 +280,7 @@ impl Wrap {
             let first = along as i32;
             return (first as usize, first as usize + 1, along - first as f32);
         }
-        let first = along.floor_by_conversion();
+        let first = Real::floor(along);
         (self.texel(first as i64, side), self.texel(first as i64 + 1, side), along - first)
     }
 }

@@ -4,8 +4,10 @@ use crate::cost::Row;
 use crate::cost::ladder::statistical_axis;
 use crate::cost::row::LITERAL;
 use crate::cost::sizes::Size;
+use crate::report::cost::table;
 use crate::report::figure::front::{Point, front};
 use crate::report::figure::growth::{Growth, growth};
+use crate::report::figure::price::{Priced, price};
 use crate::threshold::two_scale::Variant;
 
 /// A file name and its SVG text.
@@ -23,6 +25,7 @@ pub fn ladder(rows: &[Row]) -> Vec<Picture> {
         |row: &Row| row.name == LITERAL && row.hash == "sine" && row.variant == Variant::Isotropic.name();
     let bits = |row: &Row| row.error.map(|error| libm::log2(error.max(1e-17)));
     vec![
+        thresholds(rows),
         (
             "cost-sine.svg",
             front(
@@ -64,6 +67,22 @@ pub fn ladder(rows: &[Row]) -> Vec<Picture> {
             ),
         ),
     ]
+}
+
+/// Draws what accuracy costs in time: the rows of [`table::thresholds`], the fastest first.
+#[must_use]
+pub fn thresholds(rows: &[Row]) -> Picture {
+    let priced = |row: &Row| {
+        let law = row.law.filter(|law| law.ks > 0.0)?;
+        let name = table::name_and_way(row).join(", ");
+        Some((Priced { name, ns: row.ns_median, distance: law.ks }, law.chance))
+    };
+    let mut found: Vec<(Priced, f64)> =
+        rows.iter().filter(|row| table::is_shown(row)).filter_map(priced).collect();
+    found.sort_by(|(a, _), (b, _)| a.ns.total_cmp(&b.ns));
+    let chance = found.first().map_or(1.0, |(_, chance)| *chance);
+    let shown: Vec<Priced> = found.into_iter().map(|(row, _)| row).collect();
+    ("cost.svg", price("What accuracy costs in time", &shown, chance))
 }
 
 /// Names a row by what tells it apart in its picture.

@@ -3,8 +3,14 @@
 use crate::cost::Row;
 use crate::cost::drawing::Drawing;
 use crate::cost::effects::{Price, TABLE_1, table_1_ratios};
+use crate::cost::law::Law;
+use crate::cost::row::{LITERAL, ROBUST};
 use crate::cost::sizes::Size;
 use crate::cost::techniques::{FramePrice, TechniquePrice};
+use crate::threshold::batch::{Isa, Tier};
+use crate::threshold::hash::HashKind;
+use crate::threshold::real::Real;
+use crate::threshold::two_scale::Variant;
 
 /// A table: headings, and as many cells in every row.
 #[derive(Clone, Debug, PartialEq)]
@@ -77,7 +83,7 @@ fn small(value: Option<f64>) -> String {
 pub fn ladder(rows: &[Row]) -> Table {
     let cells = |row: &Row| {
         let share = row.bits_equal.map_or_else(|| NOTHING.to_owned(), |share| format!("{share:.4}"));
-        let law = |read: fn(&crate::cost::law::Law) -> f64| {
+        let law = |read: fn(&Law) -> f64| {
             row.law.as_ref().map_or_else(|| NOTHING.to_owned(), |law| format!("{:.4}", read(law)))
         };
         let words = [row.name, row.variant, row.hash, row.join, row.precision, row.tier, row.isa];
@@ -145,6 +151,85 @@ pub fn techniques(prices: &[TechniquePrice]) -> Table {
     let headings =
         vec!["technique", "source", "scene", "take", "table", "without", "with", "adds ns a pixel"];
     Table { headings, rows: prices.iter().map(cells).collect() }
+}
+
+/// Whether a row is one of those that a reader compares first: whole thresholds by the best instructions of the machine and one
+/// at a time, with the hash that each comes with, and what may be left out.
+#[must_use]
+pub fn is_shown(row: &Row) -> bool {
+    let is_best = row.isa == Isa::best().name() || row.isa == "scalar";
+    let (is_sine, is_mm4) = (row.hash == HashKind::Sine.name(), row.hash == HashKind::Mm4.name());
+    let is_exact = row.tier == Tier::BitExact.name();
+    let is_isotropic = row.variant == Variant::Isotropic.name();
+    is_best
+        && match row.name {
+            LITERAL => row.precision != "double-double" && (is_sine || (is_mm4 && is_exact && is_isotropic)),
+            ROBUST => is_mm4 && is_exact && row.precision == f32::NAME,
+            name => ["one scale", "linear", "two scales without CDF"].contains(&name),
+        }
+}
+
+/// Names a threshold, and the way that it is computed.
+#[must_use]
+pub fn name_and_way(row: &Row) -> [String; 2] {
+    let is_isotropic = row.variant == Variant::Isotropic.name();
+    let name = match row.name {
+        LITERAL if is_isotropic => "Listing 1",
+        LITERAL => "Listing 2",
+        ROBUST if is_isotropic => "robust",
+        ROBUST => "robust anisotropic",
+        name => name,
+    };
+    let mut words = vec![name];
+    if row.name == LITERAL && row.hash != HashKind::Sine.name() {
+        words.push(row.hash);
+    }
+    if row.name == ROBUST && !is_isotropic {
+        words.push(row.join);
+    }
+    if row.precision != f32::NAME {
+        words.push(row.precision);
+    }
+    [words.join(" "), format!("{} {}", row.tier, row.isa)]
+}
+
+/// Returns the rows that a reader compares first, for a page.
+#[must_use]
+pub fn thresholds(rows: &[Row]) -> Table {
+    let number = |value: f64, digits: usize| format!("{value:.digits$}");
+    let cells = |row: &Row| {
+        let [name, way] = name_and_way(row);
+        let law = |read: fn(&Law) -> f64| {
+            row.law.as_ref().map_or_else(|| NOTHING.to_owned(), |law| number(read(law), 4))
+        };
+        vec![
+            name,
+            way,
+            number(row.ns_min, 2),
+            number(row.ns_median, 2),
+            number(row.ratio, 1),
+            row.bits_equal.map_or_else(|| NOTHING.to_owned(), |share| number(share, 4)),
+            small(row.error),
+            law(|law| law.ks),
+            law(|law| law.bias),
+            law(|law| law.flips_per_pixel),
+            law(|law| law.flips_per_octave),
+        ]
+    };
+    let headings = [
+        "threshold",
+        "computed by",
+        "ns min",
+        "ns median",
+        "ratio to std",
+        "bits",
+        "real",
+        "KS distance",
+        "bias of planes",
+        "changes a pixel",
+        "changes an octave",
+    ];
+    Table { headings: headings.to_vec(), rows: rows.iter().filter(|row| is_shown(row)).map(cells).collect() }
 }
 
 /// Returns the three tests of Table 1 over the scenes of the gallery, as ratios to the traditional one.

@@ -56,7 +56,7 @@ pub fn front(title: &str, value: &str, points: &[Point]) -> String {
     picture(title, TITLE_STRIP + strip + 860, |area| {
         let (top, body) = area.split_vertically(strip);
         legend(&top.margin(0, 0, 100, 20), &entries)?;
-        let (x, y) = (Axis::new("nanoseconds a value [log10]", x, 8), Axis::new(value, y, 8));
+        let (x, y) = (Axis::logarithmic("nanoseconds a value", x), Axis::new(value, y, 8));
         let mut chart = chart(&body, "", &x, &y)?;
         places.iter().try_for_each(|&place| {
             chart.plotting_area().draw(&Circle::new(place, 6, FRAME.mix(0.5).filled()))
@@ -94,7 +94,7 @@ mod tests {
         let names: Vec<_> = best(&points).iter().map(|point| point.name.as_str()).collect();
         assert_eq!(names, ["fast", "good", "best"]);
         let svg = front("a front", "error", &points);
-        is_sound(&svg, &["fast", "good", "best", "error", "nanoseconds a value [log10]"]);
+        is_sound(&svg, &["fast", "good", "best", "error", "nanoseconds a value"]);
         assert!(!svg.contains("slow"));
     }
 

@@ -17,6 +17,7 @@
 //! | [`front`] | a value against the time that it costs, and the points that no other one beats |
 //! | [`growth`] | costs against a size |
 //! | [`kill_matrix`] | which claims reject which specimens |
+//! | [`price`] | nanoseconds a threshold, and how far its law is from the uniform one |
 //! | [`until_failure`] | how many samples it takes until a claim fails |
 
 pub mod before_and_after;
@@ -28,6 +29,7 @@ pub mod growth;
 pub mod kill_matrix;
 pub mod noise;
 pub mod planes;
+pub mod price;
 pub mod stability;
 pub mod until_failure;
 pub mod validity;

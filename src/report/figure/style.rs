@@ -149,8 +149,8 @@ pub(super) struct Scale {
     /// From where to where it runs.
     pub range: Range<f64>,
     ticks: Vec<f64>,
-    /// Digits after the point.
-    decimals: usize,
+    /// Digits after the point; `None` where values are logarithms to base ten, and numbers are written that have them.
+    decimals: Option<usize>,
 }
 
 impl Ranged for Scale {
@@ -177,8 +177,16 @@ impl ValueFormatter<f64> for Scale {
     }
 
     fn format_ext(&self, value: &f64) -> String {
-        // Adding zero turns -0 into 0.
-        format!("{:.*}", self.decimals, value + 0.0)
+        match self.decimals {
+            // Adding zero turns -0 into 0.
+            Some(decimals) => format!("{:.*}", decimals, value + 0.0),
+            // 1, 2 or 5 times a power of ten, but for the last digits of the power.
+            None => {
+                let exponent = (value + 1e-9).floor();
+                let digits = (-exponent).max(0.0) as usize;
+                format!("{:.digits$}", libm::pow(10.0, *value))
+            }
+        }
     }
 }
 
@@ -189,7 +197,17 @@ impl<'t> Axis<'t> {
         let (first, last) = ((range.start / step - 1e-9).ceil(), (range.end / step + 1e-9).floor());
         let ticks = (0..=(last - first) as i32).map(|i| (first + f64::from(i)) * step).collect();
         let decimals = (0..9).find(|&d| whole(step * power_of_ten(d))).unwrap_or(9) as usize;
-        Self { title, scale: Scale { range, ticks, decimals }, numbered: true, terse: false }
+        Self { title, scale: Scale { range, ticks, decimals: Some(decimals) }, numbered: true, terse: false }
+    }
+
+    /// Makes an axis for logarithms to base ten, on which 1, 2 and 5 times the powers of ten stand as plain numbers.
+    pub fn logarithmic(title: &'t str, range: Range<f64>) -> Self {
+        let decades = range.start.floor() as i32..=range.end.ceil() as i32;
+        let ticks = decades
+            .flat_map(|decade| [1.0, 2.0, 5.0].map(|leading| f64::from(decade) + libm::log10(leading)))
+            .filter(|tick| range.contains(tick))
+            .collect();
+        Self { title, scale: Scale { range, ticks, decimals: None }, numbered: true, terse: false }
     }
 
     /// The axis from 0 to 1.
@@ -464,6 +482,11 @@ pub(super) mod tests {
         assert_eq!([0.0, 0.5, 1.0].map(|x| Axis::unit("x", 2).label(x)), ["0", "0.5", "1"]);
         assert_eq!(Axis::unit("x", 2).scale.ticks.len(), 3);
         assert_eq!(Axis::new("x", 0.0..0.0, 4).scale.ticks, [0.0]);
+        let axis = Axis::logarithmic("ns", -2.1..1.4);
+        assert_eq!(
+            axis.scale.ticks.iter().map(|&t| axis.label(t)).collect::<Vec<_>>(),
+            ["0.01", "0.02", "0.05", "0.1", "0.2", "0.5", "1", "2", "5", "10", "20"]
+        );
     }
 
     #[test]

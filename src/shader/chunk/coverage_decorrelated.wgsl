@@ -14,16 +14,19 @@ fn is_coprime(first: u32, second: u32) -> bool {
     return a == 1u;
 }
 
-// The stratum of sample i of n, n below 65,536: a permutation for every n and every xi in [0, 1]. Eq. 9, with a step
-// that is drawn from the numbers coprime to n.
-fn decorrelated(xi: vec2<f32>, i: u32, n: u32) -> u32 {
+// The offset and the step by which the n samples of a fragment, n below 65,536, take the strata: one pair for all of
+// them. Eq. 9, with a step that is drawn from the numbers coprime to n, which are the odd ones for a power of two.
+fn permutation(xi: vec2<f32>, n: u32) -> vec2<u32> {
+    let offset = chosen_part(xi.x, n);
+    if (n & (n - 1u)) == 0u {
+        return vec2<u32>(offset, 2u * chosen_part(xi.y, max(n / 2u, 1u)) + 1u);
+    }
     var count = 0u;
     for (var candidate = 1u; candidate <= n; candidate++) {
         if is_coprime(candidate, n) {
             count++;
         }
     }
-    let offset = chosen_part(xi.x, n);
     var left = chosen_part(xi.y, count);
     var step_size = 1u;
     for (var candidate = 1u; candidate <= n; candidate++) {
@@ -35,5 +38,11 @@ fn decorrelated(xi: vec2<f32>, i: u32, n: u32) -> u32 {
             left--;
         }
     }
-    return (offset + (i % n) * step_size) % n;
+    return vec2<u32>(offset, step_size);
+}
+
+// The stratum of sample i of n: a permutation for every n and every xi in [0, 1].
+fn decorrelated(xi: vec2<f32>, i: u32, n: u32) -> u32 {
+    let order = permutation(xi, n);
+    return (order.x + (i % n) * order.y) % n;
 }

@@ -83,7 +83,7 @@ pub(super) fn unary<const FUSED: bool>(
         Unary::Ceil => floats(to, from, f32::ceil),
         Unary::Round => floats(to, from, f32::round_ties_even),
         Unary::Trunc => floats(to, from, f32::trunc),
-        Unary::Fract => floats(to, from, Real::fract),
+        Unary::Fract => floats(to, from, |x| x - x.floor()),
         Unary::Sign => floats(to, from, |x| f32::from(x > 0.0) - f32::from(x < 0.0)),
         Unary::Sqrt => floats(to, from, f32::sqrt),
         Unary::InverseSqrt => wide(to, from, |x| 1.0 / x.sqrt()),

@@ -28,6 +28,46 @@ impl Input {
         }
     }
 
+    /// Appends the values that it takes in fragments to its columns, one a scalar; those of a constant are there.
+    fn append(self, fragments: &[Fragment], columns: &mut [Values]) {
+        fn floats<const N: usize>(
+            fragments: &[Fragment],
+            columns: &mut [Values],
+            read: impl Fn(&Fragment) -> [f64; N],
+        ) {
+            for (component, column) in columns.iter_mut().enumerate() {
+                if let Values::F32(column) = column {
+                    column.extend(fragments.iter().map(|fragment| read(fragment)[component] as f32));
+                }
+            }
+        }
+        fn words<const N: usize>(
+            fragments: &[Fragment],
+            columns: &mut [Values],
+            read: impl Fn(&Fragment) -> [u32; N],
+        ) {
+            for fragment in fragments {
+                for (column, word) in columns.iter_mut().zip(read(fragment)) {
+                    if let Values::U32(column) = column {
+                        column.push(word);
+                    }
+                }
+            }
+        }
+        match self {
+            Self::Position => floats(fragments, columns, |f| f.footprint.position.to_array()),
+            Self::Dpdx => floats(fragments, columns, |f| f.footprint.dpdx.to_array()),
+            Self::Dpdy => floats(fragments, columns, |f| f.footprint.dpdy.to_array()),
+            Self::Pixel => floats(fragments, columns, |f| f.pixel.into()),
+            Self::Texcoord => floats(fragments, columns, |f| f.texcoord.into()),
+            Self::Lod => floats(fragments, columns, |f| [f.lod]),
+            Self::Frame => words(fragments, columns, |f| [f.frame]),
+            Self::Layer => words(fragments, columns, |f| [f.layer]),
+            Self::Cell => words(fragments, columns, |f| scales::only_cell(&f.footprint).words()),
+            Self::Constant(_) => {}
+        }
+    }
+
     /// The number of words that differ from fragment to fragment.
     const fn size(self) -> usize {
         match self {
@@ -37,6 +77,16 @@ impl Input {
             Self::Lod | Self::Frame | Self::Layer => 1,
             Self::Constant(_) => 0,
         }
+    }
+}
+
+/// A column of one value, which is that of every fragment.
+fn constant_column(value: Value) -> Values {
+    match value {
+        Value::F32(value) => Values::F32(vec![value]),
+        Value::I32(value) => Values::I32(vec![value]),
+        Value::U32(value) => Values::U32(vec![value]),
+        Value::Bool(value) => Values::Bool(vec![value]),
     }
 }
 
@@ -55,35 +105,26 @@ impl OwnShader {
     /// same in every fragment.
     #[must_use]
     pub fn columns(&self, fragments: &[Fragment]) -> Vec<Values> {
-        let mut columns = Vec::new();
-        for Binding { input, .. } in &self.bindings {
-            match *input {
-                Input::Constant(constant) => {
-                    columns.extend(constant.components().iter().map(|value| match *value {
-                        Value::F32(value) => Values::F32(vec![value]),
-                        Value::I32(value) => Values::I32(vec![value]),
-                        Value::U32(value) => Values::U32(vec![value]),
-                        Value::Bool(value) => Values::Bool(vec![value]),
-                    }))
-                }
-                Input::Frame | Input::Layer => {
-                    columns.push(Values::U32(fragments.iter().map(|f| input.word(f, 0)).collect()));
-                }
-                Input::Cell => {
-                    let cells: Vec<[u32; 4]> =
-                        fragments.iter().map(|f| scales::only_cell(&f.footprint).words()).collect();
-                    let column = |word: usize| cells.iter().map(|words| words[word]).collect();
-                    columns.extend((0..input.size()).map(|word| Values::U32(column(word))));
-                }
-                Input::Position | Input::Dpdx | Input::Dpdy | Input::Pixel | Input::Texcoord | Input::Lod => {
-                    columns.extend((0..input.size()).map(|component| {
-                        let value = |fragment| f32::from_bits(input.word(fragment, component));
-                        Values::F32(fragments.iter().map(value).collect())
-                    }))
-                }
+        /// Fragments that stay in the first cache while all columns are filled from them.
+        const AT_ONCE: usize = 128;
+        let empty = |binding: &Binding| match binding.input {
+            Input::Constant(constant) => {
+                constant.components().iter().map(|&value| constant_column(value)).collect()
+            }
+            Input::Frame | Input::Layer | Input::Cell => {
+                vec![Values::U32(Vec::with_capacity(fragments.len())); binding.input.size()]
+            }
+            Input::Position | Input::Dpdx | Input::Dpdy | Input::Pixel | Input::Texcoord | Input::Lod => {
+                vec![Values::F32(Vec::with_capacity(fragments.len())); binding.input.size()]
+            }
+        };
+        let mut columns: Vec<Vec<Values>> = self.bindings.iter().map(empty).collect();
+        for fragments in fragments.chunks(AT_ONCE) {
+            for (binding, columns) in self.bindings.iter().zip(&mut columns) {
+                binding.input.append(fragments, columns);
             }
         }
-        columns
+        columns.into_iter().flatten().collect()
     }
 
     /// Runs the function, made ready by [`OwnShader::program`], on every fragment.

@@ -21,7 +21,7 @@ impl<R: Kernel> Job for Count<'_, R> {
         for values in values.chunks(BLOCK) {
             for (index, &value) in index.iter_mut().zip(values) {
                 let inside = (value >= zero) & (value <= one);
-                let bin = R::min((value * scale).floor(), last).word();
+                let bin = R::min((value * scale).lane_floor::<FUSED>(), last).small_word();
                 *index = if inside { bin } else { bins as u32 };
             }
             for &index in &index[..values.len()] {

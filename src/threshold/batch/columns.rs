@@ -100,8 +100,9 @@ impl<R: Real> ColumnBuffer<R> {
 
 impl<R: Real> FromIterator<Footprint<R>> for ColumnBuffer<R> {
     fn from_iter<I: IntoIterator<Item = Footprint<R>>>(footprints: I) -> Self {
-        let mut buffer =
-            Self { position: Default::default(), dpdx: Default::default(), dpdy: Default::default() };
+        let footprints = footprints.into_iter();
+        let column = || [0; 3].map(|_| Vec::with_capacity(footprints.size_hint().0));
+        let mut buffer = Self { position: column(), dpdx: column(), dpdy: column() };
         for footprint in footprints {
             for (columns, vector) in [
                 (&mut buffer.position, footprint.position),

@@ -5,7 +5,7 @@
 //! same order; where libm would have taken another way than the common one, the answer is NaN.
 
 use super::lane::Kernel;
-use crate::threshold::real::{Real, SINE_OF_HALF_TURNS, horner, log2_near_one};
+use crate::threshold::real::{Real, SINE_OF_HALF_TURNS, floor_of_small, horner, log2_near_one};
 use crate::threshold::robust::scales::below_one;
 
 impl Kernel for f64 {
@@ -18,12 +18,12 @@ impl Kernel for f64 {
     const SQUARES: [Self; 2] = [f64::from_bits(239 << 52), f64::from_bits(1981 << 52)];
 
     #[inline(always)]
-    fn power(octave: i32) -> Self {
-        f64::from_bits(((i64::from(octave) + 1023) << 52) as u64)
+    fn lane_floor<const FUSED: bool>(self) -> Self {
+        if FUSED { f64::floor(self) } else { floor_of_small(self) }
     }
     #[inline(always)]
-    fn word(self) -> u32 {
-        (self + TO_INTEGER).to_bits() as u32
+    fn power(octave: i32) -> Self {
+        f64::from_bits(((i64::from(octave) + 1023) << 52) as u64)
     }
     #[inline(always)]
     fn lattice(word: u32) -> Self {
@@ -32,8 +32,8 @@ impl Kernel for f64 {
     #[inline(always)]
     fn octave<const FUSED: bool>(scale: Self) -> (i32, Self) {
         let log = log2(scale);
-        let floor = Real::floor(log);
-        (floor.word() as i32, log - floor)
+        let floor = log.lane_floor::<FUSED>();
+        (floor.small_word() as i32, log - floor)
     }
     #[inline(always)]
     fn octave_by_exponent<const FUSED: bool>(scale: Self) -> (i32, Self) {

@@ -3,19 +3,18 @@
 //! Every choice is made outside the loops, and every loop stands here once: a hash is one loop whatever is joined.
 
 use super::block::{BLOCK, Block};
-use super::cells::Cells;
+use super::cells::{at_octaves, at_scale, hash, words};
 use super::columns::{BlockColumns, Columns};
 use super::isa::Job;
 use super::lane::Kernel;
 use super::octaves::{Octaves, is_plain, longest_derivative, reaches};
 use super::plan::Plan;
-use crate::threshold::cdf::{CdfForm, minor_weight};
+use crate::threshold::cdf::{CdfForm, cdf, cdf_literal};
 use crate::threshold::hash::octave_word;
 use crate::threshold::model::Model;
-use crate::threshold::normal::{normal_cdf, normal_quantile};
 use crate::threshold::real::Real;
 use crate::threshold::robust::Join;
-use crate::threshold::robust::join::{CHOICE, EDGE, interval_word};
+use crate::threshold::robust::join::{CHOICE, interval_word, variance_along};
 use crate::threshold::robust::scales::corner_weight;
 use crate::threshold::two_scale::Variant;
 
@@ -59,17 +58,21 @@ fn scalar_where_nan<R: Kernel>(model: &Model, columns: &Columns<'_, R>, first: u
 /// Every intermediate array of a block.
 struct Stages<R> {
     octaves: Octaves<R>,
-    cells: Cells<R>,
-    /// Octaves that are neither the coarse nor the fine ones of all axes.
+    /// Cells that are coarse along every axis, and fine along every axis; those that are chosen take the place of the
+    /// latter.
+    coarse: [Block<R>; 3],
+    fine: [Block<R>; 3],
+    /// The words of the cells that are hashed.
+    word: Block<u32>,
+    /// The octaves of the cells that are chosen.
     chosen: [Block<i32>; 3],
     /// The last two hashes, in turn.
     hashes: [Block<R>; 2],
     /// Where there is no octave: the two scales, and the weight of the second.
     scales: [Block<R>; 2],
     weight: Block<R>,
-    /// The sum of normal quantiles and its variance.
-    sum: Block<f64>,
-    variance: Block<f64>,
+    /// The sum of normal quantiles.
+    sum: Block<R>,
 }
 
 impl<R: Kernel> Stages<R> {
@@ -78,13 +81,14 @@ impl<R: Kernel> Stages<R> {
         let zeros = [R::from_f64(0.0); BLOCK];
         Self {
             octaves: Octaves::new(),
-            cells: Cells::new(),
+            coarse: [zeros; 3],
+            fine: [zeros; 3],
+            word: [0; BLOCK],
             chosen: [[0; BLOCK]; 3],
             hashes: [zeros; 2],
             scales: [zeros; 2],
             weight: zeros,
-            sum: [0.0; BLOCK],
-            variance: [0.0; BLOCK],
+            sum: zeros,
         }
     }
 
@@ -96,17 +100,22 @@ impl<R: Kernel> Stages<R> {
         block: &BlockColumns<'_, R>,
         out: &mut Block<R>,
     ) {
-        match plan.variant {
-            Variant::Isotropic | Variant::Anisotropic => self.octaves.find::<FUSED>(plan, block),
-            Variant::Linear | Variant::Single => self.scales_without_octave(plan, block),
+        let by_octave = matches!(plan.variant, Variant::Isotropic | Variant::Anisotropic);
+        if by_octave {
+            self.octaves.find::<FUSED>(plan, block);
+            at_octaves::<R, FUSED>(plan, block, &self.octaves.coarse, &mut self.coarse);
+            if plan.join != Join::Dithered {
+                at_octaves::<R, FUSED>(plan, block, &self.octaves.fine, &mut self.fine);
+            }
+        } else {
+            self.scales_without_octave::<FUSED>(plan, block);
         }
         if plan.join == Join::Copula {
-            (self.sum, self.variance) = ([0.0; BLOCK], [0.0; BLOCK]);
+            self.sum = [R::from_f64(0.0); BLOCK];
         }
         let looks = plan.looks();
         for look in 0..looks {
-            self.find_cells(plan, block, look);
-            self.cells.hash::<FUSED>(plan.hash, plan.tier, &mut self.hashes[look % 2]);
+            self.look::<FUSED>(plan, block, look);
             match plan.join {
                 Join::Interpolate => {}
                 Join::Copula => self.add_quantiles(plan, look),
@@ -117,88 +126,79 @@ impl<R: Kernel> Stages<R> {
         match (plan.variant, plan.join) {
             (Variant::Single, _) => *out = self.hashes[0],
             (_, Join::Interpolate) => self.interpolate(plan, out),
-            (_, Join::Copula) => self.normal_cdf(out),
+            (_, Join::Copula) => self.normal_cdf(plan, out),
             (_, Join::Dithered) => *out = self.hashes[(looks - 1) % 2],
         }
         self.finish(plan, out);
     }
 
-    /// Finds the cells that are hashed next.
+    /// Hashes the cells that are looked at next.
     #[inline(always)]
-    fn find_cells(&mut self, plan: &Plan<R>, block: &BlockColumns<'_, R>, look: usize) {
-        let Self { octaves, cells, chosen, scales, .. } = self;
-        let Octaves { coarse, fine, .. } = octaves;
-        if matches!(plan.variant, Variant::Linear | Variant::Single) {
+    fn look<const FUSED: bool>(&mut self, plan: &Plan<R>, block: &BlockColumns<'_, R>, look: usize) {
+        let zeros = [R::from_f64(0.0); BLOCK];
+        let Self { octaves, coarse, fine, word, chosen, scales, .. } = self;
+        let chooses = plan.join == Join::Dithered && look < plan.axes;
+        let index = if matches!(plan.variant, Variant::Linear | Variant::Single) {
             for i in 0..BLOCK {
                 // The derivative stands in for the octave in the one, nothing in the other.
-                cells.word[i] = chosen[look][i] as u32;
+                word[i] = chosen[look][i] as u32;
             }
-            cells.at_scale(block, &scales[look]);
-            return;
-        }
-        let chooses = plan.join == Join::Dithered && look < plan.axes;
-        let octave: &[Block<i32>; 3] = match plan.join {
-            Join::Interpolate if look == 0 => coarse,
-            Join::Interpolate => fine,
-            Join::Copula => {
-                for axis in 0..plan.axes {
-                    chosen[axis] = if look >> axis & 1 == 1 { fine[axis] } else { coarse[axis] };
-                }
-                chosen
+            at_scale::<R, FUSED>(block, &scales[look], coarse);
+            coarse.each_ref()
+        } else if plan.join == Join::Dithered && !chooses {
+            at_octaves::<R, FUSED>(plan, block, chosen, fine);
+            words(plan, chosen.each_ref(), word);
+            fine.each_ref()
+        } else if chooses && plan.axes == 3 {
+            for i in 0..BLOCK {
+                word[i] = interval_word(look, octaves.coarse[look][i]);
             }
-            Join::Dithered => {
-                if chooses {
-                    coarse
-                } else {
-                    chosen
-                }
-            }
-        };
-        if plan.axes == 1 {
-            cells.at_octaves::<1>(plan, block, octave);
+            [&coarse[look], &zeros, &zeros]
         } else {
-            cells.at_octaves::<3>(plan, block, octave);
-        }
-        if chooses && plan.axes == 3 {
-            cells.index[0] = cells.index[look];
-            cells.index[1] = [R::from_f64(0.0); BLOCK];
-            cells.index[2] = [R::from_f64(0.0); BLOCK];
-            for i in 0..BLOCK {
-                cells.word[i] = interval_word(look, coarse[look][i]);
+            // One bit of `look` for each axis of a corner; between two cells one for all axes.
+            let is_fine = [0, 1, 2].map(|axis| {
+                look >> (if plan.join == Join::Copula && plan.axes == 3 { axis } else { 0 }) & 1 == 1
+            });
+            let axes = [0, 1, 2];
+            let octave =
+                axes.map(|axis| if is_fine[axis] { &octaves.fine[axis] } else { &octaves.coarse[axis] });
+            words(plan, octave, word);
+            if chooses {
+                for i in 0..BLOCK {
+                    word[i] ^= CHOICE;
+                }
             }
-        } else if chooses {
-            for i in 0..BLOCK {
-                cells.word[i] ^= CHOICE;
-            }
-        }
+            axes.map(|axis| if is_fine[axis] { &fine[axis] } else { &coarse[axis] })
+        };
+        hash::<R, FUSED>(plan.hash, plan.tier, index, word, &mut self.hashes[look % 2]);
     }
 
     /// Finds the scales of the ablations of §5.4.
     #[inline(always)]
-    fn scales_without_octave(&mut self, plan: &Plan<R>, block: &BlockColumns<'_, R>) {
-        let one = R::from_f64(1.0);
+    fn scales_without_octave<const FUSED: bool>(&mut self, plan: &Plan<R>, block: &BlockColumns<'_, R>) {
+        let (one, largest) = (R::from_f64(1.0), plan.largest_cell());
         let Self { octaves, chosen, scales, weight, .. } = self;
         let [first, second] = scales;
         if plan.variant == Variant::Single {
             for i in 0..BLOCK {
                 let (longest, sure) = longest_derivative(block, i);
                 first[i] = one / (plan.hash_scale * longest);
-                octaves.sure[i] = sure & is_plain(first[i]) & reaches(plan, block, [first[i]; 3], i);
+                octaves.sure[i] = sure & is_plain(first[i]) & reaches(largest, block, first[i], i);
                 chosen[0][i] = 0;
             }
             return;
         }
         for i in 0..BLOCK {
             let (longest, sure) = longest_derivative(block, i);
-            let (floor, ceil) = (longest.floor(), longest.ceil());
+            let (floor, ceil) = (longest.lane_floor::<FUSED>(), -(-longest).lane_floor::<FUSED>());
             weight[i] = longest - floor;
             first[i] = one / (plan.hash_scale * floor);
             second[i] = one / (plan.hash_scale * ceil);
             let sure = sure & (longest >= one) & (longest <= R::LARGEST_WORD);
             let plain = is_plain(first[i]) & is_plain(second[i]);
-            octaves.sure[i] = sure & plain & reaches(plan, block, [first[i]; 3], i);
-            chosen[0][i] = octave_word([floor.word() as i32; 3]) as i32;
-            chosen[1][i] = octave_word([ceil.word() as i32; 3]) as i32;
+            octaves.sure[i] = sure & plain & reaches(largest, block, first[i], i);
+            chosen[0][i] = octave_word([floor.small_word() as i32; 3]) as i32;
+            chosen[1][i] = octave_word([ceil.small_word() as i32; 3]) as i32;
         }
     }
 
@@ -228,7 +228,7 @@ impl<R: Kernel> Stages<R> {
             }
             Some(CdfForm::Stable) => {
                 for i in 0..BLOCK {
-                    out[i] = cdf_stable(mix(i), weight[i]);
+                    out[i] = cdf(mix(i), weight[i]);
                 }
             }
         }
@@ -237,22 +237,41 @@ impl<R: Kernel> Stages<R> {
     /// Adds the normal quantile of a corner's hash with its trilinear weight.
     #[inline(always)]
     fn add_quantiles(&mut self, plan: &Plan<R>, look: usize) {
-        let hash = &self.hashes[look % 2];
-        for i in 0..BLOCK {
-            let mut weight = 1.0;
-            for axis in 0..plan.axes {
-                let fraction = self.octaves.fraction[axis][i].to_f64();
-                weight *= if look >> axis & 1 == 1 { fraction } else { 1.0 - fraction };
+        let one = R::from_f64(1.0);
+        let Self { octaves, hashes, weight, sum, .. } = self;
+        *weight = [one; BLOCK];
+        for axis in 0..plan.axes {
+            let fraction = &octaves.fraction[axis];
+            if look >> axis & 1 == 1 {
+                for i in 0..BLOCK {
+                    weight[i] = weight[i] * fraction[i];
+                }
+            } else {
+                for i in 0..BLOCK {
+                    weight[i] = weight[i] * (one - fraction[i]);
+                }
             }
-            self.sum[i] += weight * normal_quantile(hash[i].to_f64().clamp(EDGE, 1.0 - EDGE));
-            self.variance[i] += weight * weight;
+        }
+        let hash = &hashes[look % 2];
+        for i in 0..BLOCK {
+            sum[i] = sum[i] + weight[i] * hash[i].normal_quantile();
         }
     }
 
+    /// Scales the sum of quantiles to unit variance, and makes it uniform.
     #[inline(always)]
-    fn normal_cdf(&self, out: &mut Block<R>) {
+    fn normal_cdf(&self, plan: &Plan<R>, out: &mut Block<R>) {
+        let Octaves { fraction: [x, y, z], .. } = &self.octaves;
         for i in 0..BLOCK {
-            out[i] = R::from_f64(normal_cdf(self.sum[i] / self.variance[i].sqrt()));
+            out[i] = variance_along(x[i]);
+        }
+        if plan.axes == 3 {
+            for i in 0..BLOCK {
+                out[i] = out[i] * variance_along(y[i]) * variance_along(z[i]);
+            }
+        }
+        for i in 0..BLOCK {
+            out[i] = (self.sum[i] / out[i].sqrt()).normal_cdf();
         }
     }
 
@@ -280,39 +299,5 @@ impl<R: Kernel> Stages<R> {
         for (value, sure) in out.iter_mut().zip(&self.octaves.sure) {
             *value = if *sure { *value } else { nan };
         }
-    }
-}
-
-/// [`cdf_literal`](crate::threshold::cdf::cdf_literal) with one division for its three cases.
-#[inline(always)]
-fn cdf_literal<R: Kernel>(x: R, weight: R) -> R {
-    let [half, one, two] = [0.5, 1.0, 2.0].map(R::from_f64);
-    let a = minor_weight(weight);
-    let below = x < one - a;
-    let from_edge = if below { x } else { one - x };
-    let middle = below & (x >= a);
-    let numerator = if middle { x - half * a } else { from_edge * from_edge };
-    let divisor = if middle { one - a } else { two * a * (one - a) };
-    let quotient = numerator / divisor;
-    if below { quotient } else { one - quotient }
-}
-
-/// [`cdf`](crate::threshold::cdf::cdf) with two divisions for its three cases.
-#[inline(always)]
-fn cdf_stable<R: Kernel>(x: R, weight: R) -> R {
-    let [half, one] = [0.5, 1.0].map(R::from_f64);
-    let a = minor_weight(weight);
-    let from_top = one - x;
-    let low = x < a;
-    let edge = low | (from_top < a);
-    let from_edge = if low { x } else { from_top };
-    let quotient = (if edge { from_edge / a } else { x - half * a }) / (one - a);
-    let at_edge = half * from_edge * quotient;
-    if !edge {
-        quotient
-    } else if low {
-        at_edge
-    } else {
-        one - at_edge
     }
 }

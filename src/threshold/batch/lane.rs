@@ -3,12 +3,13 @@
 //! Each is exact where the scalar path would have gone the same way, and NaN (or not asked at all) elsewhere: a lane
 //! that ends as NaN is evaluated again by the scalar path.
 
-use crate::threshold::real::{Real, log2_of_normal, sin_in_domain};
+use crate::threshold::exponent::exponent_and_mantissa;
+use crate::threshold::real::{Real, floor_of_small, log2_of_normal, sin_in_domain};
 use crate::threshold::robust::scales::below_one;
 
 /// The branch-free steps.
 pub trait Kernel: Real {
-    /// Cells with coordinates up to this number have words that [`Kernel::word`] gives.
+    /// Cells with coordinates up to this number have words that [`Real::small_word`] gives.
     const LARGEST_WORD: Self;
     /// Cells with coordinates up to this number have sines that [`Kernel::sine`] gives: 17.1 of them are in its domain.
     const LARGEST_SINE: Self;
@@ -19,10 +20,16 @@ pub trait Kernel: Real {
     /// Squares of lengths between these are neither rounded to zero nor infinite.
     const SQUARES: [Self; 2];
 
+    /// Returns the floor of a magnitude below [`Real::SMALL`]; any number elsewhere, NaN for NaN. `FUSED`: the machine has a fused
+    /// multiply-add, and so an instruction for this, too.
+    fn lane_floor<const FUSED: bool>(self) -> Self;
+    /// [`Real::fract`], likewise.
+    #[inline(always)]
+    fn lane_fract<const FUSED: bool>(self) -> Self {
+        self - self.lane_floor::<FUSED>()
+    }
     /// Returns two to the power of `octave`, exactly, for an octave of a normal number.
     fn power(octave: i32) -> Self;
-    /// Returns an integral value up to [`Kernel::LARGEST_WORD`] in two's complement.
-    fn word(self) -> u32;
     /// [`open_lattice`](crate::threshold::hash::open_lattice).
     fn lattice(word: u32) -> Self;
     /// Returns the octave of a scale and the place in it, in [0, 1], by the logarithm.
@@ -52,14 +59,12 @@ impl Kernel for f32 {
     const SQUARES: [Self; 2] = [f32::from_bits(29 << 23), f32::from_bits(246 << 23)];
 
     #[inline(always)]
-    fn power(octave: i32) -> Self {
-        f32::from_bits((octave.wrapping_add(127) << 23) as u32)
+    fn lane_floor<const FUSED: bool>(self) -> Self {
+        if FUSED { f32::floor(self) } else { floor_of_small(self) }
     }
     #[inline(always)]
-    fn word(self) -> u32 {
-        /// Adding 1.5 * 2^23 brings the integer into the low bits.
-        const TO_INTEGER: f32 = 12_582_912.0;
-        (self + TO_INTEGER).to_bits().wrapping_sub(TO_INTEGER.to_bits())
+    fn power(octave: i32) -> Self {
+        f32::from_bits((octave.wrapping_add(127) << 23) as u32)
     }
     #[inline(always)]
     fn lattice(word: u32) -> Self {
@@ -68,8 +73,8 @@ impl Kernel for f32 {
     #[inline(always)]
     fn octave<const FUSED: bool>(scale: Self) -> (i32, Self) {
         let log = log2_of_normal::<FUSED>(scale, 0);
-        let floor = log.floor();
-        (floor.word() as i32, log - floor)
+        let floor = log.lane_floor::<FUSED>();
+        (floor.small_word() as i32, log - floor)
     }
     #[inline(always)]
     fn octave_by_exponent<const FUSED: bool>(scale: Self) -> (i32, Self) {
@@ -155,13 +160,6 @@ fn sin_by_three_parts(x: f32) -> f32 {
     let squared = rest * rest;
     let sine = (rest * squared).mul_add(horner(squared, &COEFFICIENTS), rest);
     f32::from_bits(sine.to_bits() ^ (shifted.to_bits() << 31))
-}
-
-/// Takes a positive normal number apart: 2^exponent times a mantissa in [1, 2).
-#[inline(always)]
-fn exponent_and_mantissa(x: f32) -> (i32, f32) {
-    let bits = x.to_bits();
-    ((bits >> 23) as i32 - 127, f32::from_bits((bits & 0x007f_ffff) | 0x3f80_0000))
 }
 
 /// Reads the octave off the exponent; the place in it has an absolute error below 2^-23.

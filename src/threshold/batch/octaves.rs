@@ -43,10 +43,17 @@ impl<R: Kernel> Octaves<R> {
         for axis in 0..plan.axes {
             self.split::<FUSED>(plan, axis);
         }
+        // No cell that is looked at is finer than the fine one. A sum keeps NaN; a maximum would not.
+        let mut reach = [R::from_f64(0.0); BLOCK];
+        for axis in 0..3 {
+            let (fine, position) = (&self.fine[axis.min(plan.axes - 1)], block.position[axis]);
+            for i in 0..BLOCK {
+                reach[i] = reach[i] + (R::power(fine[i]) * position[i]).abs();
+            }
+        }
+        let largest = plan.largest_cell();
         for i in 0..BLOCK {
-            // No cell that is looked at is finer than this one.
-            let finest = [0, 1, 2].map(|axis: usize| R::power(self.fine[axis.min(plan.axes - 1)][i]));
-            self.sure[i] &= reaches(plan, block, finest, i);
+            self.sure[i] &= reach[i] <= largest;
         }
     }
 
@@ -137,15 +144,9 @@ pub(super) fn is_plain<R: Kernel>(scale: R) -> bool {
     (scale >= smallest) & (scale <= largest)
 }
 
-/// Returns whether the cells of the given scales can be hashed here.
+/// Returns whether the cells of a scale have coordinates that add up to at most the largest.
 #[inline(always)]
-pub(super) fn reaches<R: Kernel>(
-    plan: &Plan<R>,
-    block: &BlockColumns<'_, R>,
-    scale: [R; 3],
-    i: usize,
-) -> bool {
-    let [x, y, z] = [0, 1, 2].map(|axis| (scale[axis] * block.position[axis][i]).abs());
-    // A sum keeps NaN; a maximum would not.
-    x + y + z <= plan.largest_cell()
+pub(super) fn reaches<R: Kernel>(largest: R, block: &BlockColumns<'_, R>, scale: R, i: usize) -> bool {
+    let [x, y, z] = block.position;
+    (scale * x[i]).abs() + (scale * y[i]).abs() + (scale * z[i]).abs() <= largest
 }

@@ -1,7 +1,7 @@
 //! The stages of the listings over whole slices: sine, logarithm, hash.
 
 use super::block::{BLOCK, Block};
-use super::cells::Cells;
+use super::cells;
 use super::isa::{Isa, Job};
 use super::lane::Kernel;
 use super::tier::Tier;
@@ -115,15 +115,14 @@ impl Job for HashOfCells<'_> {
     #[inline(always)]
     fn run<const FUSED: bool>(self) {
         let Self { kind, tier, index, word, out } = self;
-        let mut cells = Cells::<f32>::new();
-        let mut values = [0.0; BLOCK];
+        let (mut cells, mut words, mut values) = ([[0.0; BLOCK]; 3], [0; BLOCK], [0.0; BLOCK]);
         for (at, out) in out.chunks_mut(BLOCK).enumerate() {
             let range = at * BLOCK..at * BLOCK + out.len();
-            for (axis, index) in cells.index.iter_mut().zip(index) {
+            for (axis, index) in cells.iter_mut().zip(index) {
                 axis[..out.len()].copy_from_slice(&index[range.clone()]);
             }
-            cells.word[..out.len()].copy_from_slice(&word[range]);
-            cells.hash::<FUSED>(kind, tier, &mut values);
+            words[..out.len()].copy_from_slice(&word[range]);
+            cells::hash::<f32, FUSED>(kind, tier, cells.each_ref(), &words, &mut values);
             out.copy_from_slice(&values[..out.len()]);
         }
     }
@@ -187,7 +186,7 @@ fn is_within(x: f32) -> bool {
 pub(crate) fn exp2_block(x: &Block<f32>, out: &mut Block<f32>) {
     let mut all_octaves = true;
     for i in 0..BLOCK {
-        out[i] = f32::power(x[i].word() as i32);
+        out[i] = f32::power(crate::threshold::real::Real::small_word(x[i]) as i32);
         all_octaves &= is_octave(x[i]);
     }
     if !all_octaves {

@@ -15,10 +15,17 @@ impl<R: Real> Cell<R> {
     /// Returns x, y, z as the low 32 bits of their two's complement, and the octave.
     ///
     /// Distinct cells give distinct words as long as each coordinate is in [-2^31, 2^31).
+    #[inline(always)]
     #[must_use]
     pub fn words(&self) -> [u32; 4] {
-        let [x, y, z] = self.index.into();
-        [x.to_word(), y.to_word(), z.to_word(), self.octave]
+        let [x, y, z]: [R; 3] = self.index.into();
+        // A sum keeps NaN; a maximum would not.
+        let [x, y, z] = if x.abs() + y.abs() + z.abs() < R::SMALL {
+            [x.small_word(), y.small_word(), z.small_word()]
+        } else {
+            [x.to_word(), y.to_word(), z.to_word()]
+        };
+        [x, y, z, self.octave]
     }
 }
 
@@ -39,6 +46,7 @@ pub fn octave_word([x, y, z]: [i32; 3]) -> u32 {
 ///
 /// The value is in [2^-24, 1 - 2^-24], exact in `f32` and `f64`, symmetric about 1/2, never 0 and never 1. Not in
 /// the paper, whose hash takes 0 with a probability of 4e-4 in `f32`.
+#[inline(always)]
 #[must_use]
 pub fn open_lattice<R: Real>(word: u32) -> R {
     R::from_f64(f64::from(2 * (word >> 9) + 1) * (1.0 / 16_777_216.0))
@@ -60,6 +68,19 @@ pub fn open_lattice<R: Real>(word: u32) -> R {
 pub trait Hash<R: Real>: Sync {
     /// Returns the value of `cell`; the paper asks for a uniform law on [0, 1) (§5).
     fn hash(&self, cell: &Cell<R>) -> R;
+
+    /// Returns the values of several cells, those of [`Hash::hash`]; a hash that is chosen at run time chooses once for all.
+    #[inline(always)]
+    fn hash_all<const N: usize>(&self, cells: [Cell<R>; N]) -> [R; N]
+    where
+        Self: Sized,
+    {
+        let mut values = [R::from_f64(0.0); N];
+        for (value, cell) in values.iter_mut().zip(&cells) {
+            *value = self.hash(cell);
+        }
+        values
+    }
 }
 
 #[cfg(test)]

@@ -21,10 +21,10 @@ pub(crate) struct Listed {
 
 /// A hash over a block of cells, without a branch.
 pub(in crate::threshold) trait OfBlocks {
-    /// Writes the hashes of cells; `sine` is that of the tier.
-    fn block<R: Kernel>(
+    /// Writes the hashes of cells; `sine` is that of the tier, `FUSED` as in [`Kernel`].
+    fn block<R: Kernel, const FUSED: bool>(
         sine: impl Fn(R) -> R + Copy,
-        index: &[Block<R>; 3],
+        index: [&Block<R>; 3],
         octave: &Block<u32>,
         out: &mut Block<R>,
     );

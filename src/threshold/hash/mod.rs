@@ -63,6 +63,13 @@ macro_rules! declare {
                     $(Self::$kind => $file::$kind.hash(cell),)*
                 }
             }
+
+            #[inline(always)]
+            fn hash_all<const N: usize>(&self, cells: [Cell<R>; N]) -> [R; N] {
+                match self {
+                    $(Self::$kind => $file::$kind.hash_all(cells),)*
+                }
+            }
         }
     };
 }

@@ -13,15 +13,20 @@ use crate::threshold::real::Real;
 /// `hash_2d(-x, -y)` is `1 - hash_2d(x, y)`: both are the formula's, not a defect of this crate. §5.1.
 #[must_use]
 pub fn hash_2d<R: Real>(x: R, y: R) -> R {
-    hash_2d_by(R::sin, x, y)
+    hash_2d_by(R::sin, R::fract, x, y)
 }
 
-/// [`hash_2d`] with a sine of the caller's.
+/// [`hash_2d`] with a sine and a fractional part of the caller's.
 #[inline(always)]
-pub(in crate::threshold) fn hash_2d_by<R: Real>(sin: impl Fn(R) -> R, x: R, y: R) -> R {
+pub(in crate::threshold) fn hash_2d_by<R: Real>(
+    sin: impl Fn(R) -> R,
+    fract: impl Fn(R) -> R,
+    x: R,
+    y: R,
+) -> R {
     let constant = R::from_f64;
     let amplitude = constant(1.0e4) * sin(constant(17.0) * x + constant(0.1) * y);
-    (amplitude * (constant(0.1) + sin(constant(13.0) * y + x).abs())).fract()
+    fract(amplitude * (constant(0.1) + sin(constant(13.0) * y + x).abs()))
 }
 
 /// Hashes three coordinates by hashing the hash of the first two with the third (`hash3D`, §5.1; chi_1 of §9).
@@ -38,25 +43,59 @@ pub fn hash_3d<R: Real>(coordinates: R::Vec3) -> R {
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Sine;
 
+/// [`hash_2d`] of several pairs of coordinates.
+#[inline(always)]
+pub(super) fn hash_2d_all<R: Real, const N: usize>(x: [R; N], y: [R; N]) -> [R; N] {
+    let constant = R::from_f64;
+    let (mut first, mut second) = (x, x);
+    for i in 0..N {
+        first[i] = constant(17.0) * x[i] + constant(0.1) * y[i];
+        second[i] = constant(13.0) * y[i] + x[i];
+    }
+    let (first, second) = (R::sin_all(first), R::sin_all(second));
+    let mut hashes = x;
+    for i in 0..N {
+        hashes[i] = (constant(1.0e4) * first[i] * (constant(0.1) + second[i].abs())).fract();
+    }
+    hashes
+}
+
 impl<R: Real> Hash<R> for Sine {
     fn hash(&self, cell: &Cell<R>) -> R {
-        hash_3d(cell.index)
+        let [hash] = self.hash_all([*cell]);
+        hash
     }
+
+    #[inline(always)]
+    fn hash_all<const N: usize>(&self, cells: [Cell<R>; N]) -> [R; N] {
+        let [x, y, z] = coordinates(cells);
+        hash_2d_all(hash_2d_all(x, y), z)
+    }
+}
+
+/// The coordinates of cells, axis by axis.
+#[inline(always)]
+pub(super) fn coordinates<R: Real, const N: usize>(cells: [Cell<R>; N]) -> [[R; N]; 3] {
+    let mut axes = [[R::from_f64(0.0); N]; 3];
+    for (i, cell) in cells.into_iter().enumerate() {
+        [axes[0][i], axes[1][i], axes[2][i]] = cell.index.into();
+    }
+    axes
 }
 
 impl OfBlocks for Sine {
     #[inline(always)]
-    fn block<R: Kernel>(
+    fn block<R: Kernel, const FUSED: bool>(
         sine: impl Fn(R) -> R + Copy,
-        [x, y, z]: &[Block<R>; 3],
+        [x, y, z]: [&Block<R>; 3],
         _: &Block<u32>,
         out: &mut Block<R>,
     ) {
         for i in 0..out.len() {
-            out[i] = hash_2d_by(sine, x[i], y[i]);
+            out[i] = hash_2d_by(sine, R::lane_fract::<FUSED>, x[i], y[i]);
         }
         for i in 0..out.len() {
-            out[i] = hash_2d_by(sine, out[i], z[i]);
+            out[i] = hash_2d_by(sine, R::lane_fract::<FUSED>, out[i], z[i]);
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::cell::{Cell, Hash};
 use super::listed::{Listed, OfBlocks};
-use super::sine::{hash_2d, hash_2d_by};
+use super::sine::{coordinates, hash_2d, hash_2d_all, hash_2d_by};
 use crate::threshold::batch::block::Block;
 use crate::threshold::batch::lane::Kernel;
 use crate::threshold::real::Real;
@@ -22,23 +22,30 @@ pub struct SineChi2;
 
 impl<R: Real> Hash<R> for SineChi2 {
     fn hash(&self, cell: &Cell<R>) -> R {
-        hash_3d_chi_2(cell.index)
+        let [hash] = self.hash_all([*cell]);
+        hash
+    }
+
+    #[inline(always)]
+    fn hash_all<const N: usize>(&self, cells: [Cell<R>; N]) -> [R; N] {
+        let [x, y, z] = coordinates(cells);
+        hash_2d_all(x, hash_2d_all(y, z))
     }
 }
 
 impl OfBlocks for SineChi2 {
     #[inline(always)]
-    fn block<R: Kernel>(
+    fn block<R: Kernel, const FUSED: bool>(
         sine: impl Fn(R) -> R + Copy,
-        [x, y, z]: &[Block<R>; 3],
+        [x, y, z]: [&Block<R>; 3],
         _: &Block<u32>,
         out: &mut Block<R>,
     ) {
         for i in 0..out.len() {
-            out[i] = hash_2d_by(sine, y[i], z[i]);
+            out[i] = hash_2d_by(sine, R::lane_fract::<FUSED>, y[i], z[i]);
         }
         for i in 0..out.len() {
-            out[i] = hash_2d_by(sine, x[i], out[i]);
+            out[i] = hash_2d_by(sine, R::lane_fract::<FUSED>, x[i], out[i]);
         }
     }
 }

@@ -19,6 +19,7 @@ macro_rules! integer_hash {
         }
 
         impl<R: $crate::threshold::real::Real> $crate::threshold::hash::cell::Hash<R> for $name {
+            #[inline(always)]
             fn hash(&self, cell: &$crate::threshold::hash::cell::Cell<R>) -> R {
                 $crate::threshold::hash::cell::open_lattice(Self::word(cell.words()))
             }
@@ -26,14 +27,14 @@ macro_rules! integer_hash {
 
         impl $crate::threshold::hash::listed::OfBlocks for $name {
             #[inline(always)]
-            fn block<R: $crate::threshold::batch::lane::Kernel>(
+            fn block<R: $crate::threshold::batch::lane::Kernel, const FUSED: bool>(
                 _: impl Fn(R) -> R + Copy,
-                [x, y, z]: &[$crate::threshold::batch::block::Block<R>; 3],
+                [x, y, z]: [&$crate::threshold::batch::block::Block<R>; 3],
                 octave: &$crate::threshold::batch::block::Block<u32>,
                 out: &mut $crate::threshold::batch::block::Block<R>,
             ) {
                 for i in 0..out.len() {
-                    out[i] = R::lattice(Self::word([x[i].word(), y[i].word(), z[i].word(), octave[i]]));
+                    out[i] = R::lattice(Self::word([x[i].small_word(), y[i].small_word(), z[i].small_word(), octave[i]]));
                 }
             }
         }

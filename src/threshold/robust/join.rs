@@ -10,8 +10,7 @@ use super::repairs::{Repair, Repairs};
 use super::scales::{Scales, corner_weight, nested_cell};
 use crate::threshold::cdf::{cdf, cdf_literal};
 use crate::threshold::choice::{UnknownName, by_name};
-use crate::threshold::hash::{Cell, Hash};
-use crate::threshold::normal::{normal_cdf, normal_quantile};
+use crate::threshold::hash::{Cell, Hash, octave_word};
 use crate::threshold::real::Real;
 use crate::threshold::two_scale::Variant;
 use core::fmt;
@@ -85,6 +84,13 @@ pub struct Joined<R: Real> {
     pub uniform: R,
 }
 
+/// What a threshold takes of a join: the weights, the mixture and the uniform value of [`Joined`].
+pub(super) struct Mixed<R: Real> {
+    pub lerp_factor: [R; 3],
+    pub interpolated: R,
+    pub uniform: R,
+}
+
 /// Joins the hashes of the cells around `position`.
 #[inline(always)]
 pub(super) fn joined<R: Real, H: Hash<R>>(
@@ -94,52 +100,73 @@ pub(super) fn joined<R: Real, H: Hash<R>>(
     position: R::Vec3,
     scales: &Scales<R>,
     repairs: Repairs,
-) -> Joined<R> {
-    let coarse = nested_cell(position, scales.octave, repairs);
-    let fine = nested_cell(position, scales.next_octave, repairs);
-    let (hash_coarse, hash_fine) = (hash.hash(&coarse), hash.hash(&fine));
+) -> Mixed<R> {
+    let coarse = nested_cell::<R>(position, scales.octave, repairs);
+    let fine = nested_cell::<R>(position, scales.next_octave, repairs);
+    let corners = Corners { coarse: coarse.index.into(), fine: fine.index.into(), scales, repairs };
     let anisotropic = variant == Variant::Anisotropic;
     let (lerp_factor, interpolated, uniform) = match join {
         Join::Interpolate => {
             let weight = if anisotropic { corner_weight(scales.fraction) } else { scales.fraction[0] };
-            let (mixture, uniform) = interpolated(hash_coarse, hash_fine, weight, repairs);
+            let hashes = hash.hash_all([coarse, fine]);
+            let (mixture, uniform) = interpolated(hashes, weight, repairs);
             ([weight; 3], mixture, uniform)
         }
+        Join::Copula if anisotropic => {
+            let mut cells = [coarse; 8];
+            for (corner, cell) in cells.iter_mut().enumerate() {
+                *cell = corners.cell([corner & 1 == 1, corner >> 1 & 1 == 1, corner >> 2 & 1 == 1]);
+            }
+            let normal = trilinear(scales.fraction, hash.hash_all(cells));
+            (scales.fraction, normal, normal.normal_cdf())
+        }
         Join::Copula => {
-            let normal = if anisotropic {
-                let corner = |fine: [bool; 3]| {
-                    let octave = [0, 1, 2]
-                        .map(|axis| if fine[axis] { scales.next_octave[axis] } else { scales.octave[axis] });
-                    hash.hash(&nested_cell(position, octave, repairs))
-                };
-                trilinear(scales.fraction.map(R::to_f64), hash_coarse, hash_fine, corner)
-            } else {
-                let weight = scales.fraction[0].to_f64();
-                normal_mixture([(1.0 - weight, hash_coarse), (weight, hash_fine)])
-            };
-            (scales.fraction, R::from_f64(normal), R::from_f64(normal_cdf(normal)))
+            let normal = linear(scales.fraction[0], hash.hash_all([coarse, fine]));
+            (scales.fraction, normal, normal.normal_cdf())
+        }
+        Join::Dithered if anisotropic => {
+            let chosen = hash.hash(&corners.cell(takes_fine(hash, &coarse, scales)));
+            (scales.fraction, chosen, chosen)
         }
         Join::Dithered => {
-            let octave = if anisotropic {
-                [0, 1, 2].map(|axis| {
-                    let takes_fine =
-                        takes_fine(hash, &coarse, axis, scales.octave[axis], scales.fraction[axis]);
-                    if takes_fine { scales.next_octave[axis] } else { scales.octave[axis] }
-                })
-            } else {
-                let choice = hash.hash(&Cell { octave: coarse.octave ^ CHOICE, ..coarse });
-                if scales.fraction[0] > choice { scales.next_octave } else { scales.octave }
-            };
-            let chosen = hash.hash(&nested_cell(position, octave, repairs));
+            let choice = hash.hash(&Cell { octave: coarse.octave ^ CHOICE, ..coarse });
+            // By its place in memory, since no machine foretells what a hash decides.
+            let chosen = hash.hash(&[coarse, fine][usize::from(scales.fraction[0] > choice)]);
             (scales.fraction, chosen, chosen)
         }
     };
-    Joined { lerp_factor, hash_coarse, hash_fine, interpolated, uniform }
+    Mixed { lerp_factor, interpolated, uniform }
+}
+
+/// The cells around a position: those of the coarse and of the fine octave of each axis, in any combination.
+struct Corners<'a, R: Real> {
+    coarse: [R; 3],
+    fine: [R; 3],
+    scales: &'a Scales<R>,
+    repairs: Repairs,
+}
+
+impl<R: Real> Corners<'_, R> {
+    /// The cell that is fine along the axes that are named, coarse along the others.
+    #[inline(always)]
+    fn cell(&self, is_fine: [bool; 3]) -> Cell<R> {
+        let Scales { octave, next_octave, .. } = self.scales;
+        let index = choose(is_fine, self.fine, self.coarse);
+        let octave = choose(is_fine, *next_octave, *octave);
+        let word = if self.repairs.contains(Repair::OctaveWord) { octave_word(octave) } else { 0 };
+        Cell { index: index.into(), octave: word }
+    }
+}
+
+/// Takes each component from the one or the other, by its place in memory, too.
+#[inline(always)]
+fn choose<T: Copy>([x, y, z]: [bool; 3], [x1, y1, z1]: [T; 3], [x0, y0, z0]: [T; 3]) -> [T; 3] {
+    [[x0, x1][usize::from(x)], [y0, y1][usize::from(y)], [z0, z1][usize::from(z)]]
 }
 
 /// Mixes two hashes, and makes the mixture uniform by Eq. 2.
 #[inline(always)]
-fn interpolated<R: Real>(coarse: R, fine: R, weight: R, repairs: Repairs) -> (R, R) {
+fn interpolated<R: Real>([coarse, fine]: [R; 2], weight: R, repairs: Repairs) -> (R, R) {
     let mixture = (R::from_f64(1.0) - weight) * coarse + weight * fine;
     let law = if repairs.contains(Repair::StableCdf) { cdf } else { cdf_literal };
     (mixture, law(mixture, weight))
@@ -161,10 +188,13 @@ fn interval<R: Real>(coarse: &Cell<R>, axis: usize, octave: i32) -> Cell<R> {
     Cell { index: alone.into(), octave: interval_word(axis, octave) }
 }
 
-/// Whether an axis takes its finer octave: chosen by the hash of its interval.
+/// Along which axes a cell takes its finer octave: chosen by the hash of the axis's interval.
 #[inline(always)]
-fn takes_fine<R: Real>(hash: &impl Hash<R>, coarse: &Cell<R>, axis: usize, octave: i32, fraction: R) -> bool {
-    fraction > hash.hash(&interval(coarse, axis, octave))
+fn takes_fine<R: Real>(hash: &impl Hash<R>, coarse: &Cell<R>, scales: &Scales<R>) -> [bool; 3] {
+    let [x, y, z] = scales.octave;
+    let intervals = [interval(coarse, 0, x), interval(coarse, 1, y), interval(coarse, 2, z)];
+    let ([x, y, z], [x_choice, y_choice, z_choice]) = (scales.fraction, hash.hash_all(intervals));
+    [x > x_choice, y > y_choice, z > z_choice]
 }
 
 /// The word of such an interval.
@@ -174,29 +204,58 @@ pub(in crate::threshold) fn interval_word(axis: usize, octave: i32) -> u32 {
 }
 
 /// Mixes the corners of the box of octaves by trilinear weights, as normal quantiles of unit variance.
-fn trilinear<R: Real>(fraction: [f64; 3], coarse: R, fine: R, corner: impl Fn([bool; 3]) -> R) -> f64 {
-    normal_mixture((0..8_u32).map(|bits| {
-        let is_fine = [0, 1, 2].map(|axis| bits >> axis & 1 == 1);
-        let weight =
-            (0..3).map(|axis| if is_fine[axis] { fraction[axis] } else { 1.0 - fraction[axis] }).product();
-        let value = match bits {
-            0 => coarse,
-            7 => fine,
-            _ => corner(is_fine),
-        };
-        (weight, value)
-    }))
+#[inline(always)]
+fn trilinear<R: Real>(fraction: [R; 3], hashes: [R; 8]) -> R {
+    let (one, [x, y, z]) = (R::from_f64(1.0), fraction);
+    let shares = [[one - x, x], [one - y, y], [one - z, z]];
+    // A loop of its own, which the compiler turns into vector instructions.
+    let mut quantiles = hashes;
+    for quantile in &mut quantiles {
+        *quantile = quantile.normal_quantile();
+    }
+    let mut sum = R::from_f64(0.0);
+    for (corner, quantile) in quantiles.into_iter().enumerate() {
+        let weight = shares[0][corner & 1] * shares[1][corner >> 1 & 1] * shares[2][corner >> 2 & 1];
+        sum = sum + weight * quantile;
+    }
+    sum / (variance_along(x) * variance_along(y) * variance_along(z)).sqrt()
 }
 
-/// Keeps the quantile of a hash that can be 0 or 1 finite: half a step inside the open lattice.
-pub(in crate::threshold) const EDGE: f64 = 1.0 / 33_554_432.0;
+/// Mixes two hashes as normal quantiles of unit variance.
+#[inline(always)]
+fn linear<R: Real>(weight: R, [coarse, fine]: [R; 2]) -> R {
+    let sum = (R::from_f64(1.0) - weight) * coarse.normal_quantile() + weight * fine.normal_quantile();
+    sum / variance_along(weight).sqrt()
+}
 
-/// Mixes normal quantiles of uniform values by weights that add up to 1, and scales the sum to unit variance.
-fn normal_mixture<R: Real>(terms: impl IntoIterator<Item = (f64, R)>) -> f64 {
-    let (mut sum, mut variance) = (0.0, 0.0);
-    for (weight, value) in terms {
-        sum += weight * normal_quantile(value.to_f64().clamp(EDGE, 1.0 - EDGE));
-        variance += weight * weight;
+/// The variance of two independent values of unit variance that are mixed by a weight and its rest. That of trilinear
+/// weights is the product over their axes.
+#[inline(always)]
+pub(in crate::threshold) fn variance_along<R: Real>(weight: R) -> R {
+    let rest = R::from_f64(1.0) - weight;
+    rest * rest + weight * weight
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Pairs of values from a grid, mixed at many weights: the law is uniform within the grid's own step at each.
+    #[test]
+    fn the_copula_is_uniform_at_every_weight() {
+        const SIDE: u32 = 256;
+        let grid = |k: u32| (k as f32 + 0.5) / SIDE as f32;
+        for weight in (0..=64).map(|i| i as f32 / 64.0) {
+            let pairs = (0..SIDE).flat_map(|a| (0..SIDE).map(move |b| [grid(a), grid(b)]));
+            let mut thresholds: Vec<f32> = pairs.map(|pair| linear(weight, pair).normal_cdf()).collect();
+            thresholds.sort_unstable_by(f32::total_cmp);
+            let count = thresholds.len() as f32;
+            let farthest = thresholds
+                .iter()
+                .enumerate()
+                .map(|(rank, threshold)| (rank as f32 / count - threshold).abs())
+                .fold(0.0, f32::max);
+            assert!(farthest < 1.0 / SIDE as f32, "{weight}: {farthest}");
+        }
     }
-    sum / variance.sqrt()
 }

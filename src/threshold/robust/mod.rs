@@ -16,8 +16,8 @@ use super::hash::{Hash, HashKind};
 use super::real::Real;
 use super::two_scale::Variant;
 use core::fmt;
-use join::Joined;
-use scales::Scales;
+use join::{Joined, Mixed};
+use scales::{Scales, nested_cell};
 
 /// The smallest robust threshold, 2^-24: half a step of the open lattice, so that alpha 0 never passes.
 pub const SMALLEST_ROBUST_THRESHOLD: f64 = 1.0 / 16_777_216.0;
@@ -131,19 +131,19 @@ impl<H> Robust<H> {
         use Join::{Copula, Dithered, Interpolate};
         use Variant::{Anisotropic, Isotropic};
         const ALL: Repairs = Repairs::ALL;
-        let of = (self.variant == Anisotropic, self.join);
-        // Each arm is compiled for what it names, and without the values on the way that nobody asks for.
-        let trace = match of {
-            (false, Interpolate) if self.repairs == ALL => {
-                self.traced(Isotropic, Interpolate, ALL, footprint)
+        // Each arm is compiled for what it names.
+        let made = match (self.variant == Anisotropic, self.join) {
+            (false, Interpolate) if self.repairs == ALL => self.made(Isotropic, Interpolate, ALL, footprint),
+            (false, Copula) if self.repairs == ALL => self.made(Isotropic, Copula, ALL, footprint),
+            (false, Dithered) if self.repairs == ALL => self.made(Isotropic, Dithered, ALL, footprint),
+            (true, Interpolate) if self.repairs == ALL => self.made(Anisotropic, Interpolate, ALL, footprint),
+            (true, Copula) if self.repairs == ALL => self.made(Anisotropic, Copula, ALL, footprint),
+            (true, Dithered) if self.repairs == ALL => self.made(Anisotropic, Dithered, ALL, footprint),
+            (_, Interpolate | Copula | Dithered) => {
+                self.made(self.variant, self.join, self.repairs, footprint)
             }
-            (false, Copula) if self.repairs == ALL => self.traced(Isotropic, Copula, ALL, footprint),
-            (false, Dithered) if self.repairs == ALL => self.traced(Isotropic, Dithered, ALL, footprint),
-            (true, Copula) if self.repairs == ALL => self.traced(Anisotropic, Copula, ALL, footprint),
-            (true, Dithered) if self.repairs == ALL => self.traced(Anisotropic, Dithered, ALL, footprint),
-            (_, Interpolate | Copula | Dithered) => self.trace(footprint),
         };
-        trace.map(|trace| trace.threshold)
+        made.map(|(_, _, threshold)| threshold)
     }
 
     /// Returns the threshold of a footprint with every value on the way.
@@ -155,18 +155,23 @@ impl<H> Robust<H> {
     where
         H: Hash<R>,
     {
-        self.traced(self.variant, self.join, self.repairs, footprint)
+        let (scales, mixed, threshold) = self.made(self.variant, self.join, self.repairs, footprint)?;
+        let cell = |octave| nested_cell(footprint.position, octave, self.repairs);
+        let [hash_coarse, hash_fine] = self.hash.hash_all([cell(scales.octave), cell(scales.next_octave)]);
+        let Mixed { lerp_factor, interpolated, uniform } = mixed;
+        let joined = Joined { lerp_factor, hash_coarse, hash_fine, interpolated, uniform };
+        Ok(RobustTrace { scales, joined, threshold })
     }
 
-    /// The trace of a variant, join and repairs that the caller may know before it runs.
+    /// The threshold by a variant, join and repairs that the caller may know before it runs, and what it comes from.
     #[inline(always)]
-    fn traced<R: Real>(
+    fn made<R: Real>(
         &self,
         variant: Variant,
         join: Join,
         repairs: Repairs,
         footprint: &Footprint<R>,
-    ) -> Result<RobustTrace<R>, InvalidInput>
+    ) -> Result<(Scales<R>, Mixed<R>, R), InvalidInput>
     where
         H: Hash<R>,
     {
@@ -175,30 +180,38 @@ impl<H> Robust<H> {
         }
         let hash_scale = R::from_f64(self.hash_scale);
         let scales = scales::robust_scales(variant, footprint, hash_scale, repairs);
-        let joined = join::joined(join, variant, &self.hash, footprint.position, &scales, repairs);
+        let mixed = join::joined(join, variant, &self.hash, footprint.position, &scales, repairs);
         let smallest = if repairs.contains(Repair::FinalClamp) {
             SMALLEST_ROBUST_THRESHOLD
         } else {
             super::hashed::SMALLEST_THRESHOLD
         };
-        let threshold = Real::clamp(joined.uniform, R::from_f64(smallest), R::from_f64(1.0));
-        Ok(RobustTrace { scales, joined, threshold })
+        let threshold = Real::clamp(mixed.uniform, R::from_f64(smallest), R::from_f64(1.0));
+        Ok((scales, mixed, threshold))
     }
 }
 
 #[inline(always)]
 fn validate<R: Real>(footprint: &Footprint<R>, hash_scale: f64) -> Result<(), InvalidInput> {
-    if !(hash_scale.is_finite() && hash_scale > 0.0) {
+    // In the order of their bits, positive finite numbers lie between 0 and infinity.
+    if hash_scale.to_bits().wrapping_sub(1) >= f64::INFINITY.to_bits() - 1 {
         return Err(InvalidInput::HashScale(hash_scale));
     }
-    let Footprint { position, dpdx, dpdy } = *footprint;
-    if all_finite::<R>(position.into()) && all_finite::<R>(dpdx.into()) && all_finite::<R>(dpdy.into()) {
-        return Ok(());
-    }
-    not_finite(footprint)
+    if all_finite(footprint) { Ok(()) } else { not_finite(footprint) }
 }
 
-/// Names the first coordinate or derivative that is not finite.
+/// Whether nine numbers are finite, as their sum tells: NaN and the infinities stay in it. So may finite numbers of the largest
+/// sizes; what is not found finite is looked at one by one.
+#[inline(always)]
+fn all_finite<R: Real>(footprint: &Footprint<R>) -> bool {
+    let sum = |v: R::Vec3| {
+        let [x, y, z] = v.into();
+        x + y + z
+    };
+    (sum(footprint.position) + sum(footprint.dpdx) + sum(footprint.dpdy)).is_finite()
+}
+
+/// Names the first coordinate or derivative that is not finite, if there is one.
 #[cold]
 fn not_finite<R: Real>(footprint: &Footprint<R>) -> Result<(), InvalidInput> {
     let named: [([&'static str; 3], [R; 3]); 3] = [
@@ -211,12 +224,6 @@ fn not_finite<R: Real>(footprint: &Footprint<R>) -> Result<(), InvalidInput> {
         Some((what, value)) => Err(InvalidInput::NotFinite { what, value: value.to_f64() }),
         None => Ok(()),
     }
-}
-
-#[inline(always)]
-fn all_finite<R: Real>(v: [R; 3]) -> bool {
-    let [x, y, z] = v;
-    x.is_finite() && y.is_finite() && z.is_finite()
 }
 
 #[cfg(test)]

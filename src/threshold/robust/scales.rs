@@ -4,7 +4,7 @@ use super::repairs::{Repair, Repairs};
 use crate::threshold::footprint::Footprint;
 use crate::threshold::hash::{Cell, octave_word};
 use crate::threshold::real::{Real, power_of_two};
-use crate::threshold::two_scale::{Variant, length_of};
+use crate::threshold::two_scale::{Variant, length_of, square_of};
 
 /// The octave and the place within it along each axis. Isotropic scales hold the same value three times.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,14 +45,14 @@ pub fn robust_scales<R: Real>(
     repairs: Repairs,
 ) -> Scales<R> {
     let floors = repairs.contains(Repair::DerivativeFloor);
-    let measure = if floors { safe_length } else { length_of };
     let (dx, dy): ([R; 3], [R; 3]) = (footprint.dpdx.into(), footprint.dpdy.into());
     let anisotropic = variant == Variant::Anisotropic;
     let max_derivative = if anisotropic {
         let along = |axis: usize| Real::max(dx[axis].abs(), dy[axis].abs());
         [along(0), along(1), along(2)]
     } else {
-        [Real::max(measure(dx), measure(dy)); 3]
+        let plain = || Real::max(length_of(dx), length_of(dy));
+        [if floors { longest_of_any_size(dx, dy) } else { plain() }; 3]
     };
     // Listing 2 shortens its sides by sqrt(1/2), so that a cell's diagonal in the screen plane counts.
     let numerator = R::from_f64(if anisotropic { 0.707 } else { 1.0 });
@@ -91,9 +91,6 @@ fn by_logarithm<R: Real>(scale: R) -> (i32, i32, R) {
     (log.floor().to_i32(), log.ceil().to_i32(), log.fract())
 }
 
-/// The bits of the mantissa of an `f64`, without the one in front.
-const F64_MANTISSA: u64 = (1 << (f64::MANTISSA_DIGITS - 1)) - 1;
-
 /// Cuts a scale to its octave, the next one and the fraction between them, in [0, 1): the octave out of the exponent,
 /// the fraction out of the mantissa, so that the two cannot disagree.
 ///
@@ -103,19 +100,24 @@ const F64_MANTISSA: u64 = (1 << (f64::MANTISSA_DIGITS - 1)) - 1;
 #[inline(always)]
 #[must_use]
 pub fn by_exponent<R: Real>(scale: R) -> (i32, i32, R) {
+    let smallest_normal = R::from_f64(power_of_two(1 - R::MAX_EXPONENT));
+    if !(scale >= smallest_normal && scale.is_finite()) {
+        return by_exponent_of_rare(scale);
+    }
+    let (octave, fraction) = scale.exponent_and_log2();
+    (octave, octave + 1, below_one(fraction))
+}
+
+/// [`by_exponent`] of what is no normal number above 0.
+#[cold]
+#[inline(never)]
+fn by_exponent_of_rare<R: Real>(scale: R) -> (i32, i32, R) {
     let wide = scale.to_f64();
     if !(wide > 0.0 && wide.is_finite()) {
         return by_logarithm(scale);
     }
-    let (mantissa, octave) = if wide < f64::MIN_POSITIVE {
-        let (half_mantissa, exponent) = libm::frexp(wide);
-        (2.0 * half_mantissa, exponent - 1)
-    } else {
-        let bits = wide.to_bits();
-        let exponent = (bits >> F64_MANTISSA.count_ones()) as i32;
-        (f64::from_bits(bits & F64_MANTISSA | 1.0_f64.to_bits()), exponent + 1 - f64::MAX_EXP)
-    };
-    (octave, octave + 1, below_one(R::from_f64(mantissa).log2()))
+    let (half_mantissa, exponent) = libm::frexp(wide);
+    (exponent - 1, exponent, below_one(R::from_f64(2.0 * half_mantissa).log2()))
 }
 
 /// Returns a fraction in [0, 1], of which rounding may have made 1, in [0, 1).
@@ -131,44 +133,64 @@ pub(in crate::threshold) fn below_one<R: Real>(fraction: R) -> R {
 #[inline(always)]
 #[must_use]
 pub fn nested_cell<R: Real>(position: R::Vec3, octave: [i32; 3], repairs: Repairs) -> Cell<R> {
-    let [x, y, z]: [R; 3] = position.into();
-    let of = |octave| Grid::of(octave, repairs.contains(Repair::NestedPhase));
+    let position: [R; 3] = position.into();
+    let largest = largest_component(position);
+    let of = |octave| Grid::of(octave, repairs.contains(Repair::NestedPhase), largest);
     let along_x = of(octave[0]);
     let [along_y, along_z] = if octave[0] == octave[1] && octave[0] == octave[2] {
         [along_x; 2]
     } else {
         [of(octave[1]), of(octave[2])]
     };
-    let index = [along_x.index(x), along_y.index(y), along_z.index(z)];
+    let index = [along_x.index(position[0]), along_y.index(position[1]), along_z.index(position[2])];
     let word = if repairs.contains(Repair::OctaveWord) { octave_word(octave) } else { 0 };
     Cell { index: index.into(), octave: word }
 }
 
-/// The cells of one octave along an axis.
+/// The cells of one octave along an axis. A cell begins at 1/3 or 2/3 after a whole number, or at that number.
 #[derive(Clone, Copy)]
 struct Grid<R: Real> {
     cells_per_unit: R,
-    /// Where a cell begins, after a whole number; beyond 1 where that is at whole numbers.
-    begin: R,
+    /// A coordinate that lies less than this above its nearest whole number is in the cell before.
+    low: R,
+    /// One that lies so much above it is in the cell after.
+    high: R,
+    /// Whether every coordinate, counted in cells, is small enough for [`Real::nearest`].
+    is_small: bool,
 }
 
 impl<R: Real> Grid<R> {
     #[inline(always)]
-    fn of(octave: i32, is_nested: bool) -> Self {
-        let begin = match (is_nested, octave & 1) {
-            (false, _) => 2.0,
-            (true, 0) => 2.0 / 3.0,
-            (true, _) => 1.0 / 3.0,
+    fn of(octave: i32, is_nested: bool, largest: R) -> Self {
+        let beyond = [-2.0, 2.0].map(R::from_f64);
+        let [one, one_third, two_thirds] = [1.0, 1.0 / 3.0, 2.0 / 3.0].map(R::from_f64);
+        let (low, high) = match (is_nested, octave & 1) {
+            (false, _) => (R::from_f64(0.0), beyond[1]),
+            (true, 0) => (two_thirds - one, beyond[1]),
+            (true, _) => (beyond[0], one_third),
         };
-        Self { cells_per_unit: R::from_f64(power_of_two(octave)), begin: R::from_f64(begin) }
+        let cells_per_unit = R::from_f64(power_of_two(octave));
+        Self { cells_per_unit, low, high, is_small: cells_per_unit * largest < R::SMALL }
     }
 
     #[inline(always)]
     fn index(self, coordinate: R) -> R {
         let scaled = self.cells_per_unit * coordinate;
-        let whole = scaled.floor_by_conversion();
-        if scaled - whole >= self.begin { whole + R::from_f64(1.0) } else { whole }
+        let [zero, one] = [0.0, 1.0].map(R::from_f64);
+        let nearest = if self.is_small { scaled.nearest() } else { nearest_by_floor(scaled) };
+        let above = scaled - nearest;
+        let before = if above < self.low { one } else { zero };
+        let after = if above >= self.high { one } else { zero };
+        nearest - before + after
     }
+}
+
+/// Returns the integral value that is nearest to a number, the lower one of two.
+#[cold]
+#[inline(never)]
+fn nearest_by_floor<R: Real>(x: R) -> R {
+    let floor = x.floor();
+    if x - floor > R::from_f64(0.5) { floor + R::from_f64(1.0) } else { floor }
 }
 
 /// Returns the one cell whose hash is looked at where a hash is on trial alone: that of the coarse octave of an isotropic
@@ -208,12 +230,29 @@ fn largest_component<R: Real>([x, y, z]: [R; 3]) -> R {
     Real::max(Real::max(x.abs(), y.abs()), z.abs())
 }
 
-/// Returns the Euclidean length; scaled where the plain sum of squares under- or overflows.
+/// Returns the larger of two Euclidean lengths; scaled where a plain sum of squares under- or overflows.
 #[inline(always)]
+fn longest_of_any_size<R: Real>(one: [R; 3], other: [R; 3]) -> R {
+    let [a, b] = [square_of(one), square_of(other)];
+    let larger = Real::max(a, b);
+    if larger > power::<R>(-98) && a < power(118) && b < power(118) {
+        // The root of the larger square is the larger root: rounding keeps the order.
+        larger.sqrt()
+    } else {
+        longest_by_scaling(one, other)
+    }
+}
+
+#[cold]
+#[inline(never)]
+fn longest_by_scaling<R: Real>(one: [R; 3], other: [R; 3]) -> R {
+    Real::max(safe_length(one), safe_length(other))
+}
+
+/// Returns the Euclidean length; scaled where the plain sum of squares under- or overflows.
 fn safe_length<R: Real>(v: [R; 3]) -> R {
-    let plain = length_of(v);
-    // Less than half the range of exponents, so that a square stays within it: 2^-50 and 2^60 in `f32`.
-    let power = |share: i32| R::from_f64(power_of_two(R::MAX_EXPONENT * share / 127));
+    let plain = square_of(v).sqrt();
+    // Less than half the range of exponents, so that a square stays within it.
     if plain > power(-50) && plain < power(60) {
         return plain;
     }
@@ -222,6 +261,12 @@ fn safe_length<R: Real>(v: [R; 3]) -> R {
         return largest;
     }
     largest * length_of(v.map(|c| c / largest))
+}
+
+/// Two to a power that is given for the range of `f32`, and stretched to that of `R`.
+#[inline(always)]
+fn power<R: Real>(of_f32: i32) -> R {
+    R::from_f64(power_of_two(R::MAX_EXPONENT * of_f32 / 127))
 }
 
 #[cfg(test)]

@@ -103,9 +103,12 @@ impl SampleStrata {
         out: &mut [R],
     ) {
         let (n, chi, literal) = (self.samples, out[0], form == CdfForm::Literal);
-        let jitter =
-            |stratum| if literal { jittered_literal(chi, stratum, n) } else { jittered(chi, stratum, n) };
-        let samples = out.iter_mut().zip(first..);
+        // Strata are below n.
+        let jitter = |stratum| {
+            let threshold = jittered_literal(chi, stratum, n);
+            if literal { threshold } else { clamp_last(threshold) }
+        };
+        let samples = out.iter_mut().enumerate().map(|(i, out)| (out, first.wrapping_add(i as u32)));
         match self.pattern {
             SamplePattern::Regular => samples.for_each(|(out, i)| *out = regular(i, n)),
             SamplePattern::Hardware => samples.for_each(|(out, i)| *out = hardware_threshold(i, n)),
@@ -113,15 +116,30 @@ impl SampleStrata {
                 let chi = pixel_value(pixel);
                 samples.for_each(|(out, i)| *out = turned(chi, i, n));
             }
-            SamplePattern::Jittered => samples.for_each(|(out, i)| *out = jitter(i)),
+            SamplePattern::Jittered if literal => samples.for_each(|(out, i)| *out = jitter(i)),
+            SamplePattern::Jittered => samples.for_each(|(out, i)| *out = jitter(within(i, n))),
             SamplePattern::Decorrelated => {
                 let xi = fragment_pair::<R>(words());
-                let stratum = if literal { decorrelated_literal } else { decorrelated };
-                samples.for_each(|(out, i)| *out = jitter(stratum(xi, i, n)));
+                if literal {
+                    samples.for_each(|(out, i)| *out = jitter(decorrelated_literal(xi, i, n)));
+                } else {
+                    let order = Permutation::drawn(xi, n);
+                    samples.for_each(|(out, i)| *out = jitter(order.stratum(i)));
+                }
             }
             SamplePattern::Shuffled => {
                 let [_, _, _, word] = words();
-                samples.for_each(|(out, i)| *out = jitter(shuffled(word, i, n)));
+                let mut hashes = [0; AT_HAND];
+                match hashes.get_mut(..n.get() as usize) {
+                    Some(hashes) => {
+                        hashes.iter_mut().zip(0..).for_each(|(hash, i)| *hash = hash_of_sample(word, i));
+                        samples.for_each(|(out, i)| {
+                            let own = hashes[within(i, n) as usize];
+                            *out = jitter(hashes.iter().map(|&other| u32::from(other < own)).sum());
+                        });
+                    }
+                    None => samples.for_each(|(out, i)| *out = jitter(shuffled(word, i, n))),
+                }
             }
             SamplePattern::Independent => {
                 samples.filter(|&(_, i)| i > 0).for_each(|(out, _)| *out = stochastic(random()));
@@ -187,19 +205,53 @@ pub fn decorrelated_literal<R: Real>(xi: [R; 2], i: u32, n: NonZeroU32) -> u32 {
     offset.wrapping_add(i.wrapping_mul(step)) % n
 }
 
+/// The order in which the samples of one fragment take the strata: drawn once, asked for every sample.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Permutation {
+    offset: u32,
+    /// Coprime to the number of samples.
+    step: u32,
+    samples: NonZeroU32,
+}
+
+impl Permutation {
+    /// Draws an order of `n` samples by two values in [0, 1]: the step of Eq. 9 is drawn from the numbers coprime to `n`.
+    ///
+    /// For powers of two these are the odd numbers, as in the paper. The work grows with any other `n`.
+    #[must_use]
+    pub fn drawn<R: Real>(xi: [R; 2], n: NonZeroU32) -> Self {
+        let size = n.get();
+        let step = if size.is_power_of_two() {
+            2 * chosen_part(xi[1], (size / 2).max(1)) + 1
+        } else {
+            let coprime = |&step: &u32| is_coprime(step, size);
+            let count = (1..=size).filter(coprime).count();
+            let chosen = chosen_part(xi[1], count as u32);
+            (1..=size).filter(coprime).nth(chosen as usize).unwrap_or(1)
+        };
+        Self { offset: chosen_part(xi[0], size), step, samples: n }
+    }
+
+    /// Returns the stratum of sample `i`, which counts modulo the number of samples: `(offset + i step) mod n`. Eq. 9.
+    #[inline(always)]
+    #[must_use]
+    pub fn stratum(self, i: u32) -> u32 {
+        let Self { offset, step, samples } = self;
+        if samples.is_power_of_two() {
+            return offset.wrapping_add(i.wrapping_mul(step)) & (samples.get() - 1);
+        }
+        let stratum =
+            (u64::from(offset) + u64::from(within(i, samples)) * u64::from(step)) % u64::from(samples.get());
+        stratum as u32
+    }
+}
+
 /// Returns the stratum of sample `i` of `n`: a permutation of 0..n for every `n` and every `xi` in [0, 1]. Eq. 9, with a
-/// step that is drawn from the numbers coprime to `n`; `i` counts modulo `n`.
-///
-/// For powers of two these are the odd numbers, as in the paper. The work grows with `n`.
+/// step that is drawn from the numbers coprime to `n`; `i` counts modulo `n`. For all samples of a fragment at once there is
+/// [`Permutation`].
 #[must_use]
 pub fn decorrelated<R: Real>(xi: [R; 2], i: u32, n: NonZeroU32) -> u32 {
-    let offset = chosen_part(xi[0], n.get());
-    let coprime = |&step: &u32| is_coprime(step, n.get());
-    let count = (1..=n.get()).filter(coprime).count();
-    let chosen = chosen_part(xi[1], count as u32);
-    let step = (1..=n.get()).filter(coprime).nth(chosen as usize).unwrap_or(1);
-    let stratum = (u64::from(offset) + u64::from(i % n) * u64::from(step)) % u64::from(n.get());
-    stratum as u32
+    Permutation::drawn(xi, n).stratum(i)
 }
 
 /// Returns the stratum of sample `i` of `n` in the permutation that `word` draws, every one of them as likely as any
@@ -208,10 +260,22 @@ pub fn decorrelated<R: Real>(xi: [R; 2], i: u32, n: NonZeroU32) -> u32 {
 /// The work grows with `n`. Not in the paper, which names the permutations and not how to draw them.
 #[must_use]
 pub fn shuffled(word: u32, i: u32, n: NonZeroU32) -> u32 {
-    let hash = |sample: u32| pcg(word.wrapping_add(sample));
-    let own = hash(i % n);
+    let own = hash_of_sample(word, i % n);
     // No two are equal: the hash is a bijection.
-    (0..n.get()).filter(|&other| hash(other) < own).count() as u32
+    (0..n.get()).filter(|&other| hash_of_sample(word, other) < own).count() as u32
+}
+
+fn hash_of_sample(word: u32, sample: u32) -> u32 {
+    pcg(word.wrapping_add(sample))
+}
+
+/// Up to so many samples are ranked by hashes that are found once for all of them.
+const AT_HAND: usize = 64;
+
+/// A sample's number modulo `n`; a division only where it is one.
+#[inline(always)]
+fn within(i: u32, n: NonZeroU32) -> u32 {
+    if i < n.get() { i } else { i % n }
 }
 
 /// The two numbers in (0, 1) of a fragment, out of its words; the first word is left to stochastic thresholds.

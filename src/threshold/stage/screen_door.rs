@@ -1,6 +1,6 @@
 //! Screen-door transparency: strata of a threshold over a tile of pixels in place of the samples of one (§3, §8.1).
 
-use super::coverage::{decorrelated, jittered, regular};
+use super::coverage::{Permutation, jittered, regular};
 use crate::threshold::hash::mm4::murmur3;
 use crate::threshold::hash::open_lattice;
 use crate::threshold::real::Real;
@@ -99,7 +99,7 @@ pub fn random_mask<R: Real>(pixel: [u32; 2], seed: u32) -> R {
 pub fn randomised<R: Real>(pixel: [u32; 2], layer: u32) -> R {
     let tile = pixel.map(|c| c / TILE);
     let hash = |which: u32| open_lattice::<R>(murmur3([tile[0], tile[1], layer, which]));
-    let stratum = decorrelated([hash(0), hash(1)], ordered(pixel), STRATA);
+    let stratum = Permutation::drawn([hash(0), hash(1)], STRATA).stratum(ordered(pixel));
     jittered(hash(2 + place(pixel)), stratum, STRATA)
 }
 

@@ -27,8 +27,14 @@ pub struct TwoScale<R: Real> {
 
 /// Returns the Euclidean length, summed from left to right (GLSL's `length`).
 #[inline(always)]
-pub(crate) fn length_of<R: Real>([x, y, z]: [R; 3]) -> R {
-    (x * x + y * y + z * z).sqrt()
+pub(crate) fn length_of<R: Real>(v: [R; 3]) -> R {
+    square_of(v).sqrt()
+}
+
+/// Returns the square of the Euclidean length, summed from left to right.
+#[inline(always)]
+pub(crate) fn square_of<R: Real>([x, y, z]: [R; 3]) -> R {
+    x * x + y * y + z * z
 }
 
 /// Returns the larger length of the two derivatives: `max(length_of(dFdx(objCoord.xyz)), length_of(dFdy(objCoord.xyz)))`.

@@ -116,6 +116,7 @@ impl<'a> Compiler<'a> {
                     Some(outer) => self.binary(Binary::AddInteger, outer, offset)?,
                     None => offset,
                 };
+                self.arrays.push(place.first..place.first + count * size as Register);
                 Ok(Operand::Pointer(Place { offset: Some(offset), ..place }))
             }
             Operand::Value(value) => {
@@ -124,6 +125,7 @@ impl<'a> Compiler<'a> {
                     self.push(Op::Unary { function: Unary::Copy, to, from })?;
                 }
                 let first = registers.first().copied().unwrap_or_default();
+                self.arrays.push(first..first + registers.len() as Register);
                 self.load(Place { first, offset: Some(offset) }, size).map(Operand::Value)
             }
         }

@@ -11,6 +11,7 @@ mod expression;
 mod math;
 mod matrix;
 mod operator;
+mod reuse;
 mod statement;
 mod types;
 
@@ -19,10 +20,11 @@ use super::error::Unsupported;
 use super::op::{Block, Product, Register};
 use super::program::{Constant, Parameter, Program};
 use super::undefined::UndefinedKind;
+use core::ops::Range;
 use core::sync::atomic::AtomicU64;
 use naga::valid::{FunctionInfo, ModuleInfo};
 use naga::{Arena, Expression, Function, GlobalVariable, Handle, Module, Override, Span, TypeInner};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// The largest number of registers: 32 MiB a thread.
 const MOST_REGISTERS: u32 = 1 << 16;
@@ -87,6 +89,8 @@ struct Compiler<'a> {
     constants: HashMap<Constant, Register>,
     globals: HashMap<Handle<GlobalVariable>, Place>,
     overrides: HashMap<Handle<Override>, Value>,
+    /// Registers of which one is chosen by an offset.
+    arrays: Vec<Range<Register>>,
     /// Registers that hold a product.
     products: HashMap<Register, Product>,
     /// What can happen, and where; calls of a function count together.
@@ -107,6 +111,7 @@ pub(super) fn compile(module: &Module, info: &ModuleInfo, name: &str) -> Result<
         constants: HashMap::new(),
         globals: HashMap::new(),
         overrides: HashMap::new(),
+        arrays: Vec::new(),
         products: HashMap::new(),
         undefined: Vec::new(),
     };
@@ -131,14 +136,19 @@ pub(super) fn compile(module: &Module, info: &ModuleInfo, name: &str) -> Result<
     body.0.append(&mut compiler.block.0);
     let mut constants: Vec<_> = compiler.constants.into_iter().map(|(word, to)| (to, word)).collect();
     constants.sort_unstable_by_key(|&(to, _)| to);
+    let outside = columns.iter().chain(&results).copied().chain(constants.iter().map(|&(to, _)| to));
+    let kept: HashSet<Register> = outside.chain(compiler.arrays.into_iter().flatten()).collect();
+    let (renamed, registers) =
+        reuse::reuse(&mut body, compiler.registers, |register| kept.contains(&register));
+    let renamed = |register: Register| renamed[register as usize];
     Ok(Program {
         parameters,
         result,
-        arguments: columns,
-        results,
-        constants,
+        arguments: columns.into_iter().map(renamed).collect(),
+        results: results.into_iter().map(renamed).collect(),
+        constants: constants.into_iter().map(|(to, word)| (renamed(to), word)).collect(),
         body,
-        registers: compiler.registers as usize,
+        registers: registers as usize,
         counts: compiler.undefined.iter().map(|_| AtomicU64::new(0)).collect(),
         undefined: compiler.undefined,
         steps: Program::DEFAULT_STEPS,

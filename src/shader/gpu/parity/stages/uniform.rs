@@ -4,7 +4,7 @@ use super::super::input::{self, number, numbers};
 use super::super::{Class, Stage};
 use super::parts::{EQ_2, bounded, isotropic, number_stage, robust, stable};
 use crate::threshold::cdf::{cdf, cdf_literal, minor_weight};
-use crate::threshold::normal::{normal_cdf, normal_quantile};
+use crate::threshold::normal::{normal_cdf_f32, normal_quantile_f32};
 use crate::threshold::real::Real;
 use crate::threshold::robust::Join;
 use crate::threshold::two_scale::Variant;
@@ -45,17 +45,17 @@ pub(super) const STAGES: &[Stage] = &[
         ["0.25, 0.75", "0.25, 1.0"]
     ),
     number_stage!(
-        "normal quantile", bounded(0.0, 8.0e-6, "log 3 ULP; coefficients of AS 241 good to 1e-7 relative, in f32"),
+        "normal quantile", bounded(0.0, 1.0e-6, "two polynomials whose products may enter their sums unrounded: 1 ULP of 5"),
         || robust(Variant::Isotropic, Join::Copula),
         "normal_quantile(number(0u))", 1, input::value,
-        |words| normal_quantile(f64::from(number(words, 0))) as f32,
-        ["180625", "180525"]
+        |words| normal_quantile_f32(number(words, 0)),
+        ["- 119)", "- 118)"]
     ),
     number_stage!(
-        "normal distribution", bounded(0.0, 1.0e-6, "exp 3 + 2|x| ULP below 1/2; a polynomial good to 2.4e-8"),
+        "normal distribution", bounded(0.0, 2.5e-7, "two polynomials whose products may enter their sums unrounded: 2^-23"),
         || robust(Variant::Isotropic, Join::Copula),
         "normal_cdf(number(0u))", 1, input::deviation,
-        |words| normal_cdf(f64::from(number(words, 0))) as f32,
-        ["0.28 * abs(z)", "0.2801 * abs(z)"]
+        |words| normal_cdf_f32(number(words, 0)),
+        ["- 0.4592214", "- 0.4593214"]
     ),
 ];
