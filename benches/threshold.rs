@@ -71,6 +71,10 @@ fn one_at_a_time(group: &mut BenchmarkGroup<'_, WallTime>) {
     let footprints = footprints::<f32>();
     group.throughput(Throughput::Elements(footprints.len() as u64));
     group.bench_function("plain", |b| b.iter(|| sum(&footprints, plain::robust)));
+    let listing = HashedAlpha::listing(Variant::Isotropic);
+    group.bench_function("Listing 1", |b| {
+        b.iter(|| sum(&footprints, |footprint| listing.threshold(footprint)))
+    });
     for variant in [Variant::Isotropic, Variant::Anisotropic] {
         for join in Join::ALL {
             let robust = Robust { join, ..Robust::new(variant) };

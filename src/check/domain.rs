@@ -8,7 +8,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 
-/// Frames that are told apart; more of them would only be counted.
+/// Frames that are kept; further ones are not.
 const FRAMES_LIMIT: usize = 4096;
 
 /// A set of whole numbers from -64 to 63; what lies beyond counts as its nearest end.
@@ -100,7 +100,7 @@ pub struct Domain {
     pub texcoords: Option<[f64; 2]>,
 }
 
-/// Fragments that one thread looks at in turn.
+/// Fragments that one thread looks at in turn. Which frames are kept where there are too many depends on it, and on nothing else.
 const AT_ONCE: usize = 1 << 14;
 
 impl Domain {

@@ -73,7 +73,7 @@ pub fn cdf_literal<R: Real>(x: R, lerp_factor: R) -> R {
     let below = x < one - a;
     let from_edge = if below { x } else { one - x };
     let middle = below & (x >= a);
-    // One division for the three cases, which no machine foretells.
+    // One division serves the three cases, without a branch that no predictor could foretell.
     let numerator = if middle { x - half * a } else { from_edge * from_edge };
     let divisor = if middle { one - a } else { two * a * (one - a) };
     let quotient = numerator / divisor;
@@ -94,7 +94,7 @@ pub fn cdf<R: Real>(x: R, lerp_factor: R) -> R {
     let low = x < a;
     let edge = low | (from_top < a);
     let from_edge = if low { x } else { from_top };
-    // Two divisions for the three cases, which no machine foretells.
+    // Two divisions serve the three cases, without a branch that no predictor could foretell.
     let quotient = (if edge { from_edge / a } else { x - half * a }) / (one - a);
     let at_edge = half * from_edge * quotient;
     if !edge {

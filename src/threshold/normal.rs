@@ -1,7 +1,8 @@
 //! The normal law, for joining hashes without losing uniformity: distribution function and quantile.
 //!
 //! Not in the paper. Portable: in `f64` only `libm` and arithmetic, in `f32` only sums, products and the exponent of a number,
-//! without a branch, so that a vector of any width and a shader take the same steps to the same bits.
+//! without a branch, so that a vector of any width takes the same steps to the same bits, and so does a shader whose compiler does
+//! not let products enter sums unrounded.
 
 use super::exponent::exponent_and_mantissa;
 use core::f64::consts::FRAC_1_SQRT_2;
@@ -10,9 +11,10 @@ use core::f64::consts::FRAC_1_SQRT_2;
 /// lattice, so that the quantile of a hash that reaches 0 or 1 is finite.
 pub const QUANTILE_EDGE: f64 = 1.0 / 33_554_432.0;
 
-/// Returns the normal quantile of `u` in [0, 1], of which what is outside [2^-25, 1 - 2^-25] counts as these ends; NaN for NaN.
+/// Returns the normal quantile of `u` in [0, 1]; what is nearer to an end than [`QUANTILE_EDGE`] counts as that near, up to rounding.
+/// NaN for NaN.
 ///
-/// `(2 u - 1)` times a polynomial in the logarithm of `4 u (1 - u)`, itself by exponent and polynomial. `u` and `1 - u` have
+/// `u - 1/2` times a polynomial in the logarithm of `4 u (1 - u)`, itself by exponent and polynomial. `u` and `1 - u` have
 /// quantiles of opposite sign, exactly. The probability that belongs to the quantile is within 2^-24 of `u`, and its distance to
 /// the nearer end within 2^-14 of that distance.
 #[inline(always)]
@@ -58,7 +60,7 @@ pub fn normal_quantile_f32(u: f32) -> f32 {
 /// Returns the probability that a standard normal variable is at most `z`, in (0, 1], within 1.3 * 2^-24 of it; NaN for NaN.
 ///
 /// The lower tail is two to the power of a polynomial and has a relative error below 2^-16; below -5.7 it is that of -5.7,
-/// 6e-9. The values of `z` and `-z` add up to 1 exactly, and it never falls.
+/// 6e-9. The values of `z` and `-z` add up to 1 exactly, as `f32` adds. From one `z` to the next it may fall by a rounding.
 #[inline(always)]
 #[must_use]
 pub fn normal_cdf_f32(z: f32) -> f32 {
@@ -272,14 +274,14 @@ mod tests {
     }
 
     #[test]
-    fn f32_has_both_halves_alike_and_never_falls() {
+    fn f32_has_both_halves_alike_and_rises_but_for_roundings() {
         for u in lattice() {
             assert_eq!(normal_quantile_f32(u), -normal_quantile_f32(1.0 - u), "{u}");
         }
         let mut last = 0.0;
         for z in (-600_000..=600_000).map(|i| i as f32 * 1e-5) {
             let probability = normal_cdf_f32(z);
-            assert!(probability >= last && probability <= 1.0, "{z}");
+            assert!(probability >= last * (1.0 - 4.0 * f32::EPSILON) && probability <= 1.0, "{z}");
             assert_eq!(probability + normal_cdf_f32(-z), 1.0, "{z}");
             last = probability;
         }

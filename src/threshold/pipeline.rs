@@ -226,7 +226,7 @@ impl Pipeline {
             out = [self.in_frame(self.of_source(inputs, random), inputs.frame)];
         }
         if let Some(strata) = self.sample_strata {
-            let words = || fragment_words(self.cycle(), inputs.pixel, inputs.frame, inputs.layer);
+            let words = || fragment_words(inputs.pixel, self.frame_in_cycle(inputs.frame), inputs.layer);
             strata.thresholds(self.form, inputs.pixel, words, random, sample, &mut out);
         }
         self.finish(&mut out, || (inputs.lod, inputs.texel));
@@ -266,10 +266,10 @@ impl Pipeline {
         if let Some(strata) = self.sample_strata {
             // From the last to the first, so that none is overwritten before it is moved.
             (0..fragments).rev().for_each(|at| out[at * samples] = out[at]);
-            let (reads_pixel, cycle) = (self.reads().pixel, self.cycle());
+            let (reads_pixel, frame) = (self.reads().pixel, self.frame_in_cycle(inputs.frame));
             for (at, out) in out.chunks_exact_mut(samples).enumerate() {
                 let pixel = if reads_pixel { inputs.pixel[at] } else { [0; 2] };
-                let words = || fragment_words(cycle, pixel, inputs.frame, inputs.layer[at]);
+                let words = || fragment_words(pixel, frame, inputs.layer[at]);
                 strata.thresholds(self.form, pixel, words, random, 0, out);
             }
         }
@@ -420,6 +420,11 @@ impl Pipeline {
         of_source + if is_independent { u64::from(self.samples().get() - 1) } else { 0 }
     }
 
+    /// The index of a frame among those that thresholds repeat after.
+    fn frame_in_cycle(&self, frame: u32) -> u32 {
+        self.cycle().map_or(frame, |frames| (u64::from(frame) % frames) as u32)
+    }
+
     /// Returns the number of frames after which the thresholds of a still scene repeat; `None` where they never do.
     #[must_use]
     pub fn cycle(&self) -> Option<u64> {
@@ -454,8 +459,8 @@ impl<R: Lane> InputColumns<'_, R> {
     }
 }
 
-/// Four words that belong to one fragment, and to its frame among those that thresholds repeat after.
-fn fragment_words(cycle: Option<u64>, [x, y]: [u32; 2], frame: u32, layer: u32) -> [u32; 4] {
-    let frame = cycle.map_or(frame, |frames| (u64::from(frame) % frames) as u32);
+/// Four words that belong to one fragment of a frame.
+#[inline(always)]
+fn fragment_words([x, y]: [u32; 2], frame: u32, layer: u32) -> [u32; 4] {
     pcg4d([x, y, frame, layer])
 }

@@ -128,7 +128,7 @@ pub trait Real:
     #[must_use]
     fn exp2(self) -> Self;
 
-    /// Returns the normal quantile of a value in [0, 1], of which what is outside [2^-25, 1 - 2^-25] counts as these ends.
+    /// Returns the normal quantile of a value in [0, 1]; what is nearer to an end than 2^-25 counts as that near.
     ///
     /// `f32`: by [`normal_quantile_f32`]. `f64`: by [`normal_quantile`].
     #[must_use]

@@ -75,7 +75,7 @@ pub fn thresholds(rows: &[Row]) -> Picture {
     let priced = |row: &Row| {
         let law = row.law.filter(|law| law.ks > 0.0)?;
         let name = table::name_and_way(row).join(", ");
-        Some((Priced { name, ns: row.ns_median, distance: law.ks }, law.chance))
+        Some((Priced { name, ns: row.ns_median, exact: row.bits_equal?, distance: law.ks }, law.chance))
     };
     let mut found: Vec<(Priced, f64)> =
         rows.iter().filter(|row| table::is_shown(row)).filter_map(priced).collect();

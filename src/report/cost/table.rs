@@ -3,6 +3,7 @@
 use crate::cost::Row;
 use crate::cost::drawing::Drawing;
 use crate::cost::effects::{Price, TABLE_1, table_1_ratios};
+use crate::cost::ladder::statistical_axis;
 use crate::cost::law::Law;
 use crate::cost::row::{LITERAL, ROBUST};
 use crate::cost::sizes::Size;
@@ -10,6 +11,7 @@ use crate::cost::techniques::{FramePrice, TechniquePrice};
 use crate::threshold::batch::{Isa, Tier};
 use crate::threshold::hash::HashKind;
 use crate::threshold::real::Real;
+use crate::threshold::robust::Join;
 use crate::threshold::two_scale::Variant;
 
 /// A table: headings, and as many cells in every row.
@@ -165,7 +167,9 @@ pub fn is_shown(row: &Row) -> bool {
         && match row.name {
             LITERAL => row.precision != "double-double" && (is_sine || (is_mm4 && is_exact && is_isotropic)),
             ROBUST => is_mm4 && is_exact && row.precision == f32::NAME,
-            name => ["one scale", "linear", "two scales without CDF"].contains(&name),
+            name => {
+                name != "two scales with CDF" && statistical_axis().iter().any(|(known, _)| *known == name)
+            }
         }
 }
 
@@ -178,13 +182,17 @@ pub fn name_and_way(row: &Row) -> [String; 2] {
         LITERAL => "Listing 2",
         ROBUST if is_isotropic => "robust",
         ROBUST => "robust anisotropic",
+        // The joins of the statistical axis.
+        name if name == row.join => "robust",
         name => name,
     };
     let mut words = vec![name];
     if row.name == LITERAL && row.hash != HashKind::Sine.name() {
         words.push(row.hash);
     }
-    if row.name == ROBUST && !is_isotropic {
+    if name.starts_with("robust") && row.join != Join::Interpolate.name()
+        || row.name == ROBUST && !is_isotropic
+    {
         words.push(row.join);
     }
     if row.precision != f32::NAME {

@@ -56,7 +56,7 @@ pub fn front(title: &str, value: &str, points: &[Point]) -> String {
     picture(title, TITLE_STRIP + strip + 860, |area| {
         let (top, body) = area.split_vertically(strip);
         legend(&top.margin(0, 0, 100, 20), &entries)?;
-        let (x, y) = (Axis::logarithmic("nanoseconds a value", x), Axis::new(value, y, 8));
+        let (x, y) = (Axis::logarithmic("nanoseconds a value", x, 14), Axis::new(value, y, 8));
         let mut chart = chart(&body, "", &x, &y)?;
         places.iter().try_for_each(|&place| {
             chart.plotting_area().draw(&Circle::new(place, 6, FRAME.mix(0.5).filled()))

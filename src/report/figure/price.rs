@@ -1,7 +1,7 @@
-//! What accuracy costs in time: one row a threshold, its nanoseconds beside its distance to the uniform law.
+//! What accuracy costs in time: one row a threshold, its nanoseconds beside its exactness and its distance to the uniform law.
 
 use super::style::{
-    Axis, BLUE, Canvas, Chart, Drawn, FRAME, INK, Key, LABEL_SIZE, TITLE_STRIP, VERMILLION, WIDTH, chart,
+    Axis, BLUE, Canvas, Chart, Drawn, FRAME, INK, Key, TICK_SIZE, TITLE_STRIP, VERMILLION, WIDTH, chart,
     curve, legend, legend_height, picture, plain, shorten,
 };
 use plotters::prelude::*;
@@ -15,14 +15,17 @@ pub struct Priced {
     pub name: String,
     /// Its time in nanoseconds a threshold, above 0.
     pub ns: f64,
+    /// The share of thresholds that have the bits of the reference.
+    pub exact: f64,
     /// The greatest distance of its law to the uniform one, above 0.
     pub distance: f64,
 }
 
-const ROW: i32 = 50;
-const NAMES: i32 = 640;
+const ROW: i32 = 46;
+/// Width of the names and of the charts of times and shares; that of distances has the rest.
+const WIDTHS: [i32; 3] = [690, 500, 250];
 
-/// Draws rows from top to bottom. A law farther from the uniform one than `chance`, which is drawn as a line, is marked.
+/// Draws rows from top to bottom: nanoseconds, share of exact thresholds, distance to the uniform law. A law farther from the uniform one than `chance`, which is drawn as a line, is marked.
 #[must_use]
 pub fn price(title: &str, rows: &[Priced], chance: f64) -> String {
     let entries = [
@@ -35,31 +38,33 @@ pub fn price(title: &str, rows: &[Priced], chance: f64) -> String {
     picture(title, TITLE_STRIP + strip + ROW * count.max(1) + 130, |area| {
         let (top, body) = area.split_vertically(strip);
         legend(&top.margin(0, 0, 30, 30), &entries)?;
-        let (names, charts) = body.split_horizontally(NAMES);
-        let (times, distances) = charts.split_horizontally((WIDTH as i32 - NAMES) * 11 / 20);
-        let y = Axis { numbered: false, ..Axis::new("", -0.5..f64::from(count.max(1)) - 0.5, 1) };
-        let axis = |title, values: &[f64]| Axis::logarithmic(title, range(values));
-        let x = axis("nanoseconds a threshold", &rows.iter().map(|row| row.ns).collect::<Vec<_>>());
-        named(&names, rows, x.bottom_room())?;
-        let marks = |chart: &mut Chart<'_>, value: fn(&Priced) -> f64| -> Drawn {
-            rows.iter().enumerate().try_for_each(|(at, row)| {
-                let height = f64::from(count) - 1.0 - at as f64;
-                let place = (libm::log10(value(row)), height);
-                let start = chart.x_range().start;
-                curve(chart, [(start, height), place], FRAME, 2)?;
+        let edges = [WIDTHS[0], WIDTHS[0] + WIDTHS[1], WIDTHS.iter().sum()];
+        let parts = body.split_by_breakpoints(edges, [0; 0]);
+        let y = Axis::rows(rows.len());
+        let axis = |title, values: &[f64], most| Axis::logarithmic(title, range(values), most);
+        let values = |read: fn(&Priced) -> f64| rows.iter().map(read).collect::<Vec<f64>>();
+        let x = axis("nanoseconds a threshold", &values(|row| row.ns), 9);
+        named(&parts[0], rows, x.bottom_room())?;
+        let marks = |chart: &mut Chart<'_>, value: &dyn Fn(&Priced) -> f64| -> Drawn {
+            let start = chart.x_range().start;
+            (0..count).rev().zip(rows).try_for_each(|(height, row)| {
+                let place = (value(row), f64::from(height));
+                curve(chart, [(start, place.1), place], FRAME, 2)?;
                 let colour = if row.distance > chance { VERMILLION } else { BLUE };
-                chart.plotting_area().draw(&Circle::new(place, 11, colour.filled()))
+                chart.plotting_area().draw(&Circle::new(place, 10, colour.filled()))
             })
         };
-        marks(&mut chart(&times, "", &x, &y)?, |row| row.ns)?;
-        let x = axis(
-            "distance to the uniform law",
-            &rows.iter().map(|row| row.distance).chain([chance]).collect::<Vec<_>>(),
-        );
-        let mut chart = chart(&distances, "", &x, &y)?;
-        marks(&mut chart, |row| row.distance)?;
-        let line = libm::log10(chance);
-        curve(&mut chart, [(line, -0.5), (line, f64::from(count) - 0.5)], INK, 3)
+        let log = |read: fn(&Priced) -> f64| move |row: &Priced| libm::log10(read(row));
+        marks(&mut chart(&parts[1], "", &x, &y)?, &log(|row| row.ns))?;
+        let x = Axis { terse: true, ..Axis::new("exact bits", -0.08..1.08, 2) };
+        marks(&mut chart(&parts[2], "", &x, &y)?, &|row| row.exact)?;
+        let mut distances = values(|row| row.distance);
+        distances.push(chance);
+        let x = axis("distance to uniform law", &distances, 5);
+        let mut chart = chart(&parts[3], "", &x, &y)?;
+        marks(&mut chart, &log(|row| row.distance))?;
+        let (line, ends) = (libm::log10(chance), y.scale.range);
+        curve(&mut chart, [(line, ends.start), (line, ends.end)], INK, 3)
     })
 }
 
@@ -69,8 +74,8 @@ fn named(area: &Canvas<'_>, rows: &[Priced], bottom: i32) -> Drawn {
     let height = area.dim_in_pixel().1 as i32 - TOP - bottom;
     rows.iter().enumerate().try_for_each(|(at, row)| {
         let middle = TOP + height * (2 * at as i32 + 1) / (2 * rows.len() as i32);
-        let text = shorten(&row.name, LABEL_SIZE, NAMES - 30);
-        area.draw_text(&text, &plain(LABEL_SIZE, HPos::Right, VPos::Center), (NAMES - 10, middle))
+        let text = shorten(&row.name, TICK_SIZE, WIDTHS[0] - 20);
+        area.draw_text(&text, &plain(TICK_SIZE, HPos::Right, VPos::Center), (WIDTHS[0] - 5, middle))
     })
 }
 
@@ -89,15 +94,18 @@ mod tests {
 
     #[test]
     fn rows_are_named_and_those_beyond_chance_are_marked() {
-        let row = |name: &str, ns, distance| Priced { name: name.to_owned(), ns, distance };
+        let row = |name: &str, ns, distance| Priced { name: name.to_owned(), ns, exact: 1.0, distance };
         let rows = [row("fast", 2.1, 0.001), row("linear", 30.0, 0.08)];
         let svg = price("prices", &rows, 0.005);
-        is_sound(&svg, &["fast", "linear", "nanoseconds a threshold", "distance to the uniform law", "0.01"]);
+        is_sound(
+            &svg,
+            &["fast", "linear", "nanoseconds a threshold", "distance to uniform law", "exact bits", "0.01"],
+        );
         let marks = |rows: &[Priced]| price("prices", rows, 0.005).matches("<circle").count();
-        assert_eq!(marks(&rows), 4);
+        assert_eq!(marks(&rows), 6);
         let colours = svg.matches("#D55E00").count();
         let sound = price("prices", &rows[..1], 0.005).matches("#D55E00").count();
-        assert_eq!(colours, sound + 2, "two marks of one row");
+        assert_eq!(colours, sound + 3, "three marks of one row");
     }
 
     #[test]

@@ -200,13 +200,29 @@ impl<'t> Axis<'t> {
         Self { title, scale: Scale { range, ticks, decimals: Some(decimals) }, numbered: true, terse: false }
     }
 
-    /// Makes an axis for logarithms to base ten, on which 1, 2 and 5 times the powers of ten stand as plain numbers.
-    pub fn logarithmic(title: &'t str, range: Range<f64>) -> Self {
+    /// Makes an axis of rows, the first one on top at `count` - 1, without numbers.
+    pub fn rows(count: usize) -> Self {
+        let range = -0.5..count.max(1) as f64 - 0.5;
+        Self {
+            title: "",
+            scale: Scale { range, ticks: Vec::new(), decimals: None },
+            numbered: false,
+            terse: false,
+        }
+    }
+
+    /// Makes an axis for logarithms to base ten, on which 1, 2 and 5 times the powers of ten stand as plain numbers; the powers
+    /// alone where that would be more than `most` numbers.
+    pub fn logarithmic(title: &'t str, range: Range<f64>, most: usize) -> Self {
         let decades = range.start.floor() as i32..=range.end.ceil() as i32;
-        let ticks = decades
-            .flat_map(|decade| [1.0, 2.0, 5.0].map(|leading| f64::from(decade) + libm::log10(leading)))
-            .filter(|tick| range.contains(tick))
-            .collect();
+        let of = |leading: &[f64]| -> Vec<f64> {
+            let all = decades
+                .clone()
+                .flat_map(|decade| leading.iter().map(move |l| f64::from(decade) + libm::log10(*l)));
+            all.filter(|tick| range.contains(tick)).collect()
+        };
+        let ticks = of(&[1.0, 2.0, 5.0]);
+        let ticks = if ticks.len() > most { of(&[1.0]) } else { ticks };
         Self { title, scale: Scale { range, ticks, decimals: None }, numbered: true, terse: false }
     }
 
@@ -482,11 +498,12 @@ pub(super) mod tests {
         assert_eq!([0.0, 0.5, 1.0].map(|x| Axis::unit("x", 2).label(x)), ["0", "0.5", "1"]);
         assert_eq!(Axis::unit("x", 2).scale.ticks.len(), 3);
         assert_eq!(Axis::new("x", 0.0..0.0, 4).scale.ticks, [0.0]);
-        let axis = Axis::logarithmic("ns", -2.1..1.4);
+        let axis = Axis::logarithmic("ns", -2.1..1.4, 11);
         assert_eq!(
             axis.scale.ticks.iter().map(|&t| axis.label(t)).collect::<Vec<_>>(),
             ["0.01", "0.02", "0.05", "0.1", "0.2", "0.5", "1", "2", "5", "10", "20"]
         );
+        assert_eq!(Axis::logarithmic("ns", -2.1..1.4, 10).scale.ticks, [-2.0, -1.0, 0.0, 1.0]);
     }
 
     #[test]

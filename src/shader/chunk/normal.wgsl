@@ -1,4 +1,4 @@
-// The normal quantile of a value in [0, 1], cut to [2^-25, 1 - 2^-25]: u - 1/2 times a polynomial in the logarithm of
+// The normal quantile of a value in [0, 1], its tail cut at 2^-25: u - 1/2 times a polynomial in the logarithm of
 // 4 u (1 - u), itself by exponent and polynomial.
 fn normal_quantile(u: f32) -> f32 {
     let tail = max(min(u, 1.0 - u), 0x1p-25f);

@@ -112,10 +112,10 @@ impl OwnShader {
                 constant.components().iter().map(|&value| constant_column(value)).collect()
             }
             Input::Frame | Input::Layer | Input::Cell => {
-                vec![Values::U32(Vec::with_capacity(fragments.len())); binding.input.size()]
+                (0..binding.input.size()).map(|_| Values::U32(Vec::with_capacity(fragments.len()))).collect()
             }
             Input::Position | Input::Dpdx | Input::Dpdy | Input::Pixel | Input::Texcoord | Input::Lod => {
-                vec![Values::F32(Vec::with_capacity(fragments.len())); binding.input.size()]
+                (0..binding.input.size()).map(|_| Values::F32(Vec::with_capacity(fragments.len()))).collect()
             }
         };
         let mut columns: Vec<Vec<Values>> = self.bindings.iter().map(empty).collect();

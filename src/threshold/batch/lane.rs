@@ -21,7 +21,7 @@ pub trait Kernel: Real {
     const SQUARES: [Self; 2];
 
     /// Returns the floor of a magnitude below [`Real::SMALL`]; any number elsewhere, NaN for NaN. `FUSED`: the machine has a fused
-    /// multiply-add, and so an instruction for this, too.
+    /// multiply-add; those that are compiled for have an instruction for this, too.
     fn lane_floor<const FUSED: bool>(self) -> Self;
     /// [`Real::fract`], likewise.
     #[inline(always)]

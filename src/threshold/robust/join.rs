@@ -130,7 +130,7 @@ pub(super) fn joined<R: Real, H: Hash<R>>(
         }
         Join::Dithered => {
             let choice = hash.hash(&Cell { octave: coarse.octave ^ CHOICE, ..coarse });
-            // By its place in memory, since no machine foretells what a hash decides.
+            // By its place in memory: what a hash decides, no predictor of branches foretells.
             let chosen = hash.hash(&[coarse, fine][usize::from(scales.fraction[0] > choice)]);
             (scales.fraction, chosen, chosen)
         }
@@ -158,7 +158,7 @@ impl<R: Real> Corners<'_, R> {
     }
 }
 
-/// Takes each component from the one or the other, by its place in memory, too.
+/// Takes each component from the one or the other, by its place in memory and without a branch.
 #[inline(always)]
 fn choose<T: Copy>([x, y, z]: [bool; 3], [x1, y1, z1]: [T; 3], [x0, y0, z0]: [T; 3]) -> [T; 3] {
     [[x0, x1][usize::from(x)], [y0, y1][usize::from(y)], [z0, z1][usize::from(z)]]

@@ -235,7 +235,11 @@ fn largest_component<R: Real>([x, y, z]: [R; 3]) -> R {
 fn longest_of_any_size<R: Real>(one: [R; 3], other: [R; 3]) -> R {
     let [a, b] = [square_of(one), square_of(other)];
     let larger = Real::max(a, b);
-    if larger > power::<R>(-98) && a < power(118) && b < power(118) {
+    let [two, half] = [2.0, 0.5].map(R::from_f64);
+    // Well within the squares of the bounds of `safe_length`, so that both ways agree where they meet.
+    let least = two * power(LEAST_PLAIN) * power(LEAST_PLAIN);
+    let most = half * power(MOST_PLAIN) * power(MOST_PLAIN);
+    if larger > least && a < most && b < most {
         // The root of the larger square is the larger root: rounding keeps the order.
         larger.sqrt()
     } else {
@@ -252,8 +256,7 @@ fn longest_by_scaling<R: Real>(one: [R; 3], other: [R; 3]) -> R {
 /// Returns the Euclidean length; scaled where the plain sum of squares under- or overflows.
 fn safe_length<R: Real>(v: [R; 3]) -> R {
     let plain = square_of(v).sqrt();
-    // Less than half the range of exponents, so that a square stays within it.
-    if plain > power(-50) && plain < power(60) {
+    if plain > power(LEAST_PLAIN) && plain < power(MOST_PLAIN) {
         return plain;
     }
     let largest = largest_component(v);
@@ -263,7 +266,12 @@ fn safe_length<R: Real>(v: [R; 3]) -> R {
     largest * length_of(v.map(|c| c / largest))
 }
 
-/// Two to a power that is given for the range of `f32`, and stretched to that of `R`.
+/// Lengths between these powers of two are found without scaling: less than half the range of exponents, so that a square stays
+/// within it.
+const LEAST_PLAIN: i32 = -50;
+const MOST_PLAIN: i32 = 60;
+
+/// Two to a power that is given for the range of `f32`, and stretched to that of `R`, towards zero.
 #[inline(always)]
 fn power<R: Real>(of_f32: i32) -> R {
     R::from_f64(power_of_two(R::MAX_EXPONENT * of_f32 / 127))

@@ -132,7 +132,9 @@ impl SampleStrata {
                 let mut hashes = [0; AT_HAND];
                 match hashes.get_mut(..n.get() as usize) {
                     Some(hashes) => {
-                        hashes.iter_mut().zip(0..).for_each(|(hash, i)| *hash = hash_of_sample(word, i));
+                        for (i, hash) in hashes.iter_mut().enumerate() {
+                            *hash = hash_of_sample(word, i as u32);
+                        }
                         samples.for_each(|(out, i)| {
                             let own = hashes[within(i, n) as usize];
                             *out = jitter(hashes.iter().map(|&other| u32::from(other < own)).sum());
@@ -154,14 +156,14 @@ impl SampleStrata {
 /// which it is not for half of all alphas.
 #[must_use]
 pub fn regular<R: Real>(i: u32, n: NonZeroU32) -> R {
-    (R::from_f64(f64::from(i % n)) + R::from_f64(0.5)) / R::from_f64(f64::from(n.get()))
+    (R::from_f64(f64::from(within(i, n))) + R::from_f64(0.5)) / R::from_f64(f64::from(n.get()))
 }
 
 /// Returns the threshold of sample `i` of `n` as hardware has it, `(i + 1) / n`, in (0, 1]; `i` counts modulo `n`. It keeps the
 /// `floor(n alpha)` samples that §3 and §8 give for hardware.
 #[must_use]
 pub fn hardware_threshold<R: Real>(i: u32, n: NonZeroU32) -> R {
-    R::from_f64(f64::from(i % n + 1)) / R::from_f64(f64::from(n.get()))
+    R::from_f64(f64::from(within(i, n) + 1)) / R::from_f64(f64::from(n.get()))
 }
 
 /// Returns the value of a pixel, in (0, 1), given its column and row: the same in every frame and layer (Humus 2009).
@@ -173,7 +175,7 @@ pub fn pixel_value<R: Real>(pixel: [u32; 2]) -> R {
 /// Returns the threshold of sample `i` of `n` by a value of the pixel: `fract(chi + i / n)`, in [2^-24, 1] with a whole sum as 1.
 #[must_use]
 pub fn turned<R: Real>(chi: R, i: u32, n: NonZeroU32) -> R {
-    let share = R::from_f64(f64::from(i % n)) / R::from_f64(f64::from(n.get()));
+    let share = R::from_f64(f64::from(within(i, n))) / R::from_f64(f64::from(n.get()));
     wrap(chi + share)
 }
 
@@ -218,16 +220,14 @@ impl Permutation {
     /// Draws an order of `n` samples by two values in [0, 1]: the step of Eq. 9 is drawn from the numbers coprime to `n`.
     ///
     /// For powers of two these are the odd numbers, as in the paper. The work grows with any other `n`.
+    #[inline(always)]
     #[must_use]
     pub fn drawn<R: Real>(xi: [R; 2], n: NonZeroU32) -> Self {
         let size = n.get();
         let step = if size.is_power_of_two() {
             2 * chosen_part(xi[1], (size / 2).max(1)) + 1
         } else {
-            let coprime = |&step: &u32| is_coprime(step, size);
-            let count = (1..=size).filter(coprime).count();
-            let chosen = chosen_part(xi[1], count as u32);
-            (1..=size).filter(coprime).nth(chosen as usize).unwrap_or(1)
+            coprime_step(xi[1], size)
         };
         Self { offset: chosen_part(xi[0], size), step, samples: n }
     }
@@ -284,9 +284,19 @@ fn fragment_pair<R: Real>([_, first, second, _]: [u32; 4]) -> [R; 2] {
 }
 
 /// Cuts [0, 1] into `n` equal parts and returns the index of the one that holds `xi`; 0 for NaN.
+#[inline(always)]
 fn chosen_part<R: Real>(xi: R, n: u32) -> u32 {
     let scaled = (Real::clamp(xi, R::from_f64(0.0), R::from_f64(1.0)) * R::from_f64(f64::from(n))).floor();
     scaled.to_word().min(n - 1)
+}
+
+/// Returns one of the numbers coprime to `size`, each for an equal part of [0, 1].
+#[inline(never)]
+fn coprime_step<R: Real>(xi: R, size: u32) -> u32 {
+    let coprime = |&step: &u32| is_coprime(step, size);
+    let count = (1..=size).filter(coprime).count();
+    let chosen = chosen_part(xi, count as u32);
+    (1..=size).filter(coprime).nth(chosen as usize).unwrap_or(1)
 }
 
 fn is_coprime(mut a: u32, mut b: u32) -> bool {

@@ -1,13 +1,14 @@
 //! Fewer operations and fewer registers: copies that are read in place, values that nobody reads, columns used again.
 //!
 //! A compiled function gives every value a column of its own, 512 bytes; a shader of some hundred lines then has more of them than
-//! the first cache holds. Most values live within one run of operations. Those take turns in a few columns here.
+//! the first-level cache holds. Most values live within one run of operations. Those take turns in a few columns here.
 
 use super::super::op::{Block, Op, Register, Step, Unary};
 use std::collections::HashMap;
 
-/// Rewrites a body, and returns how many registers it needs. `kept` are those that are read or written from outside, or by
-/// an offset that is found while the function runs; they come first, in their order, and the map says where they went.
+/// Rewrites a body. Returns where each register went that occurs in more than one run of operations or is `kept`, which is asked of
+/// those that are read or written from outside, or by an offset that is found while the function runs (they stay in their order,
+/// those of an array side by side), and how many registers there are now.
 pub(super) fn reuse(
     body: &mut Block,
     registers: u32,
@@ -41,7 +42,7 @@ pub(super) fn reuse(
 #[derive(Clone, Copy, PartialEq)]
 enum Seen {
     Nowhere,
-    /// In this run of operations alone, and first written there, on all lanes.
+    /// In this run of operations alone, written there once, on all lanes, and not read before.
     Within(usize),
     Several,
 }
