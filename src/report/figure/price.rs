@@ -23,7 +23,7 @@ pub struct Priced {
 
 const ROW: i32 = 46;
 /// Width of the names and of the charts of times and shares; that of distances has the rest.
-const WIDTHS: [i32; 3] = [690, 500, 250];
+const WIDTHS: [i32; 3] = [710, 480, 250];
 
 /// Draws rows from top to bottom: nanoseconds, share of exact thresholds, distance to the uniform law. A law farther from the uniform one than `chance`, which is drawn as a line, is marked.
 #[must_use]

@@ -38,14 +38,12 @@ pub const DIFFERENCES: &[Difference] = &[
         "hash sine_chi_2, far cells",
         "the same; its outer hash is that of a coordinate: from 2^13 on",
     ),
-    of_all("normal quantile", "f32 in place of f64, and the device's log and sqrt"),
-    of_all("normal distribution", "f32 in place of f64, and the device's exp"),
     of_all("threshold listing 1, mm4", LOGARITHM),
     of_all("threshold listing 2, mm4", LOGARITHM),
     of_all("threshold robust isotropic interpolate", LOGARITHM),
-    of_all("threshold robust isotropic copula", "the same logarithm, and f32 in place of f64"),
+    of_all("threshold robust isotropic copula", LOGARITHM),
     of_all("threshold robust anisotropic interpolate", LOGARITHM),
-    of_all("threshold robust anisotropic copula", "the same logarithm, and f32 in place of f64"),
+    of_all("threshold robust anisotropic copula", LOGARITHM),
 ];
 
 /// Returns the known difference of an adapter at a stage; `None` where all bits, or the laws, are equal.
