@@ -13,20 +13,37 @@ use crate::threshold::real::Real;
 /// `hash_2d(-x, -y)` is `1 - hash_2d(x, y)`: both are the formula's, not a defect of this crate. §5.1.
 #[must_use]
 pub fn hash_2d<R: Real>(x: R, y: R) -> R {
-    hash_2d_by(R::sin, R::fract, x, y)
+    let [hash] = hash_2d_all([x], [y]);
+    hash
 }
 
-/// [`hash_2d`] with a sine and a fractional part of the caller's.
+/// [`hash_2d`] of several pairs of coordinates.
 #[inline(always)]
-pub(in crate::threshold) fn hash_2d_by<R: Real>(
-    sin: impl Fn(R) -> R,
+pub(super) fn hash_2d_all<R: Real, const N: usize>(x: [R; N], y: [R; N]) -> [R; N] {
+    hash_2d_by(R::sin_all, R::fract, x, y)
+}
+
+/// [`hash_2d`] of several pairs of coordinates, with sines and a fractional part of the caller's.
+#[inline(always)]
+pub(in crate::threshold) fn hash_2d_by<R: Real, const N: usize>(
+    sin: impl Fn([R; N]) -> [R; N],
     fract: impl Fn(R) -> R,
-    x: R,
-    y: R,
-) -> R {
+    x: [R; N],
+    y: [R; N],
+) -> [R; N] {
     let constant = R::from_f64;
-    let amplitude = constant(1.0e4) * sin(constant(17.0) * x + constant(0.1) * y);
-    fract(amplitude * (constant(0.1) + sin(constant(13.0) * y + x).abs()))
+    let (mut first, mut second) = (x, x);
+    for i in 0..N {
+        first[i] = constant(17.0) * x[i] + constant(0.1) * y[i];
+        second[i] = constant(13.0) * y[i] + x[i];
+    }
+    let (first, second) = (sin(first), sin(second));
+    let mut hashes = x;
+    for i in 0..N {
+        let amplitude = constant(1.0e4) * first[i];
+        hashes[i] = fract(amplitude * (constant(0.1) + second[i].abs()));
+    }
+    hashes
 }
 
 /// Hashes three coordinates by hashing the hash of the first two with the third (`hash3D`, §5.1; chi_1 of §9).
@@ -42,23 +59,6 @@ pub fn hash_3d<R: Real>(coordinates: R::Vec3) -> R {
 /// [`hash_3d`] of the cell's coordinates; does not read the octave, as in Listings 1 and 2.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Sine;
-
-/// [`hash_2d`] of several pairs of coordinates.
-#[inline(always)]
-pub(super) fn hash_2d_all<R: Real, const N: usize>(x: [R; N], y: [R; N]) -> [R; N] {
-    let constant = R::from_f64;
-    let (mut first, mut second) = (x, x);
-    for i in 0..N {
-        first[i] = constant(17.0) * x[i] + constant(0.1) * y[i];
-        second[i] = constant(13.0) * y[i] + x[i];
-    }
-    let (first, second) = (R::sin_all(first), R::sin_all(second));
-    let mut hashes = x;
-    for i in 0..N {
-        hashes[i] = (constant(1.0e4) * first[i] * (constant(0.1) + second[i].abs())).fract();
-    }
-    hashes
-}
 
 impl<R: Real> Hash<R> for Sine {
     fn hash(&self, cell: &Cell<R>) -> R {
@@ -92,10 +92,10 @@ impl OfBlocks for Sine {
         out: &mut Block<R>,
     ) {
         for i in 0..out.len() {
-            out[i] = hash_2d_by(sine, R::lane_fract::<FUSED>, x[i], y[i]);
+            [out[i]] = hash_2d_by(|[angle]| [sine(angle)], R::lane_fract::<FUSED>, [x[i]], [y[i]]);
         }
         for i in 0..out.len() {
-            out[i] = hash_2d_by(sine, R::lane_fract::<FUSED>, out[i], z[i]);
+            [out[i]] = hash_2d_by(|[angle]| [sine(angle)], R::lane_fract::<FUSED>, [out[i]], [z[i]]);
         }
     }
 }

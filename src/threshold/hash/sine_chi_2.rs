@@ -42,10 +42,10 @@ impl OfBlocks for SineChi2 {
         out: &mut Block<R>,
     ) {
         for i in 0..out.len() {
-            out[i] = hash_2d_by(sine, R::lane_fract::<FUSED>, y[i], z[i]);
+            [out[i]] = hash_2d_by(|[angle]| [sine(angle)], R::lane_fract::<FUSED>, [y[i]], [z[i]]);
         }
         for i in 0..out.len() {
-            out[i] = hash_2d_by(sine, R::lane_fract::<FUSED>, x[i], out[i]);
+            [out[i]] = hash_2d_by(|[angle]| [sine(angle)], R::lane_fract::<FUSED>, [x[i]], [out[i]]);
         }
     }
 }
