@@ -1,8 +1,8 @@
 //! The threshold as WGSL text, put together out of chunks: only those that are asked for.
 //!
 //! Each chunk is the twin of the function of the same name in the `threshold` wing. With an integer hash the literal
-//! and the robust text agree with it in all but the last bits of `log2` and of the divisions; the copula join, which
-//! Rust computes in `f64`, and the sine hash are stated apart where they are tested.
+//! and the robust text agree with it in all but the last bits of `log2`, roots and divisions, and of products that a device lets into
+//! sums unrounded; the sine hash is stated apart where it is tested.
 
 use crate::threshold::cdf::CdfForm;
 use crate::threshold::fixed::FIXED_THRESHOLD;
