@@ -125,14 +125,14 @@ mod tests {
         // A pixel at a time, an independent value in every step moves by a third.
         assert!(jumping.flips_per_pixel > 4.0, "{jumping:?}");
         assert!(anchored.flips_per_pixel < 0.6 && anchored.flips_per_octave < 2.0, "{anchored:?}");
-        assert!(anchored.ks < anchored.chance && jumping.ks > 0.0, "{anchored:?}");
+        assert!(anchored.ks < 0.03 && anchored.ks < anchored.chance, "{anchored:?}");
     }
 
     #[test]
     fn a_law_that_is_not_uniform_is_seen() {
         let samples = Samples::new(Effort::Quick);
         let half = samples.law(&|footprints| vec![0.25; footprints.len()]);
-        assert!(half.ks > 0.7 && half.bias == 0.5, "{half:?}");
+        assert!(half.ks > 0.7 && half.ks > half.chance && half.bias == 0.5, "{half:?}");
         assert_eq!([half.flips_per_pixel, half.flips_per_octave], [0.0; 2]);
     }
 }

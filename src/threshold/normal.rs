@@ -249,10 +249,9 @@ mod tests {
         assert_eq!(normal_cdf(f64::NEG_INFINITY), 0.0);
     }
 
-    /// Values of the open lattice, far apart and at both ends.
+    /// Every value of the open lattice.
     fn lattice() -> impl Iterator<Item = f32> {
-        let of = |k: u32| (2 * k + 1) as f32 / 16_777_216.0;
-        (0..1 << 23).step_by(97).chain(0..4096).chain((1 << 23) - 4096..1 << 23).map(of)
+        (0..1 << 23).map(|k: u32| (2 * k + 1) as f32 / 16_777_216.0)
     }
 
     #[test]
@@ -262,7 +261,7 @@ mod tests {
             let (exact, quantile) = (f64::from(u), normal_quantile_f32(u));
             let back = normal_cdf(f64::from(quantile));
             let off = (back - exact).abs();
-            assert!(off < unit && off < 16.0 * unit * 64.0 * exact.min(1.0 - exact), "{u}: {off:e}");
+            assert!(off < unit && off < libm::exp2(-14.0) * exact.min(1.0 - exact), "{u}: {off:e}");
             let off = (f64::from(normal_cdf_f32(quantile)) - exact).abs();
             assert!(off <= 1.25 * unit, "{u}: {off:e}");
         }

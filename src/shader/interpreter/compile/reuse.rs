@@ -159,6 +159,7 @@ fn take_turns(
                 if last_read.get(register) == Some(&at) {
                     done.push(*register);
                 }
+                // It has a column: what is local is written before it is read, and gives its column back after the last reader.
                 *register = first + column_of[register];
             } else {
                 *register = renamed[*register as usize];
