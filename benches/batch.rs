@@ -32,6 +32,7 @@ fn models() -> Vec<(&'static str, Model)> {
         ("listing-1-pcg3d", listing(Variant::Isotropic, HashKind::Pcg3d)),
         ("robust", robust(Join::Interpolate)),
         ("robust-dithered", robust(Join::Dithered)),
+        ("robust-inherit", robust(Join::Inherit)),
         ("robust-copula", robust(Join::Copula)),
     ]
 }

@@ -64,12 +64,14 @@ fn kernels(count: usize) -> Vec<(String, Kernel)> {
     let robust = Model::from(Robust::new(Variant::Isotropic));
     let copula = Model::from(Robust::new(Variant::Anisotropic));
     let dithered = Model::from(Robust { join: Join::Dithered, ..Robust::new(Variant::Isotropic) });
+    let inherit = Model::from(Robust { join: Join::Inherit, ..Robust::new(Variant::Isotropic) });
     let models = [
         ("listing-1", listing_1),
         ("listing-2", listing_2),
         ("robust", robust),
         ("robust-copula", copula),
         ("robust-dithered", dithered),
+        ("robust-inherit", inherit),
     ];
     let angles: Vec<f32> = (0..count).map(|i| i as f32 * 37.1 - 7.0e4).collect();
     let scales: Vec<f32> = (0..count).map(|i| 0.01 + i as f32 * 0.37).collect();

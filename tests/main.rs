@@ -41,6 +41,7 @@ mod engines;
 mod interpreter;
 #[cfg(feature = "shader")]
 mod interpreter_operations;
+mod joins;
 #[cfg(feature = "shader")]
 mod mend;
 #[cfg(feature = "shader")]

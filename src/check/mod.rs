@@ -31,6 +31,7 @@ pub mod domain;
 #[doc(hidden)]
 pub mod draw;
 pub mod evidence;
+pub mod grain;
 pub mod growth;
 #[doc(hidden)]
 pub mod input;

@@ -531,6 +531,14 @@ impl<'a> Subject<'a> {
         })
     }
 
+    /// The same with a join of octaves that is named.
+    #[must_use]
+    pub fn all_repairs_by(join: Join) -> Vec<Self> {
+        Self::both_variants("robust", |name, precision, variant| {
+            Self::of_model(format!("{name}:{join}"), precision, Robust { join, ..Robust::new(variant) })
+        })
+    }
+
     fn both_variants(family: &str, subject: impl Fn(String, Precision, Variant) -> Self) -> Vec<Self> {
         let mut subjects = Vec::new();
         for variant in [Variant::Isotropic, Variant::Anisotropic] {

@@ -54,6 +54,7 @@ pub enum Verb {
     Cost(CostArgs),
     Eval(EvalArgs),
     Explain(ExplainArgs),
+    Grain(GrainArgs),
     Render(RenderArgs),
     Scenes(ScenesArgs),
     Shader(ShaderTextArgs),
@@ -280,6 +281,30 @@ pub struct CompareArgs {
     /// How many samples are drawn: `quick` for a quarter, `nightly` for sixteen times as many
     #[arg(long, default_value = "ci", value_parser = one_of(Budget::ALL, Budget::name))]
     pub budget: Budget,
+}
+
+/// Measures how grainy a threshold looks, and how much of it changes
+///
+/// Grain is the power of the picture of what is visible below 1/16 of a cycle a pixel, divided by alpha (1 - alpha): 1 for noise
+/// without order, less for noise that the eye averages away, more for clumps. Beside it stand the shares of pixels that appear or
+/// vanish in 1/8 of a pixel of motion and in an octave of zoom.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  hashed-alpha grain robust:isotropic robust:isotropic:inherit
+  hashed-alpha grain my.wgsl --json")]
+pub struct GrainArgs {
+    /// Subjects, as for `check`
+    #[arg(value_name = "SUBJECT", required = true)]
+    pub subjects: Vec<String>,
+    #[command(flatten)]
+    pub shader: ShaderArgs,
+    /// Seed of every random number of the run
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = seed, allow_negative_numbers = true)]
+    pub seed: u64,
+    /// One JSON object a row in place of the table
+    #[arg(long)]
+    pub json: bool,
 }
 
 /// Measures what accuracy costs in time

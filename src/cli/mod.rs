@@ -3,7 +3,7 @@
 //! | module | holds |
 //! |---|---|
 //! | [`args`] | verbs, options and their help |
-//! | [`check`], [`compare`], [`eval`], [`explain`], [`render`], [`scenes`], [`shader`] | one job a verb |
+//! | [`check`], [`compare`], [`eval`], [`explain`], [`grain`], [`render`], [`scenes`], [`shader`] | one job a verb |
 //! | [`growth`] | `check --until-failure` |
 //! | [`mend`] | `check --mend` |
 //! | [`scene_files`] | what a typed scene means |
@@ -26,6 +26,7 @@ mod ending;
 mod eval;
 mod explain;
 mod failure;
+mod grain;
 mod growth;
 mod known;
 mod mend;
@@ -68,6 +69,7 @@ pub fn run(args: &Args) -> Result<Ending, Failure> {
         Verb::Cost(args) => cost::run(args),
         Verb::Eval(args) => eval::run(args),
         Verb::Explain(args) => explain::run(args),
+        Verb::Grain(args) => grain::run(args),
         Verb::Render(args) => render::run(args),
         Verb::Scenes(args) => scenes::run(args),
         Verb::Shader(args) => shader::run(args),

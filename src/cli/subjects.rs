@@ -171,7 +171,7 @@ fn unknown(word: &str) -> Failure {
     let likely = likely(word, &known);
     Failure::Usage(format!(
         "unknown subject `{word}`.{likely} Known are paper:isotropic, paper:anisotropic, robust:isotropic, \
-         robust:anisotropic, each with gpu: before it too, hash: with the name of a hash behind it, and files of shaders, as \
+         robust:anisotropic (and the robust ones with a join behind them, as robust:isotropic:inherit), each with gpu: before it too, hash: with the name of a hash behind it, and files of shaders, as \
          my.glsl, or of programs that hold one, as my.js"
     ))
 }
@@ -196,13 +196,25 @@ fn hash(name: &str) -> Result<Vec<Asked>, Failure> {
 
 /// Returns the subjects of a family, or of one variant of it; nothing where there is none of that name.
 fn built_in(name: &str, on: On, args: &ShaderArgs) -> Result<Option<Vec<Asked>>, Failure> {
-    let (family, variant) = name.split_once(':').map_or((name, None), |(family, of)| (family, Some(of)));
-    let (family, mut all) = match family {
-        "paper" => (Family::Paper, Subject::paper()),
-        "robust" => (Family::Robust, Subject::all_repairs()),
+    let mut words = name.split(':');
+    let family = words.next();
+    let mut more: Vec<&str> = words.collect();
+    // A join of the robust threshold stands last.
+    let join: Option<Join> = more.last().and_then(|word| word.parse().ok());
+    let (family, mut all) = match (family, join) {
+        (Some("paper"), _) => (Family::Paper, Subject::paper()),
+        (Some("robust"), None) => (Family::Robust, Subject::all_repairs()),
+        (Some("robust"), Some(join)) => {
+            more.pop();
+            (Family::Robust, Subject::all_repairs_by(join))
+        }
         _ => return Ok(None),
     };
-    all.retain(|subject| variant.is_none_or(|variant| subject.variant.name() == variant));
+    all.retain(|subject| match more[..] {
+        [] => true,
+        [variant] => subject.variant.name() == variant,
+        _ => false,
+    });
     if all.is_empty() {
         return Ok(None);
     }
@@ -218,7 +230,7 @@ fn built_in(name: &str, on: On, args: &ShaderArgs) -> Result<Option<Vec<Asked>>,
     for twin in all {
         let pipeline = match family {
             Family::Paper => Pipeline::listing(twin.variant),
-            Family::Robust | Family::Hash => Pipeline::robust(twin.variant),
+            Family::Robust | Family::Hash => Robust { join: twin.join, ..Robust::new(twin.variant) }.into(),
         };
         let shader = own::assembled(&twin.name, pipeline)?;
         let claims = Claimed {

@@ -222,7 +222,7 @@ fn listing(variant: Variant, hash: HashKind) -> Model {
 
 /// What may be left out of a threshold, or put in its place, and what that does to its law; all with one hash.
 #[must_use]
-pub fn statistical_axis() -> [(&'static str, Model); 6] {
+pub fn statistical_axis() -> [(&'static str, Model); 7] {
     let hashed =
         |variant| HashedAlpha { variant, hash: HashKind::Mm4, hash_scale: 1.0, form: CdfForm::Stable };
     let robust = |join| Robust { join, ..Robust::new(Variant::Isotropic) }.into();
@@ -233,6 +233,7 @@ pub fn statistical_axis() -> [(&'static str, Model); 6] {
         ("two scales with CDF", hashed(Variant::Isotropic).into()),
         ("copula", robust(Join::Copula)),
         ("dithered", robust(Join::Dithered)),
+        ("inherit", robust(Join::Inherit)),
     ]
 }
 

@@ -9,6 +9,7 @@
 //! | [`html`] | `cli` | one page that needs nothing but the pictures beside it |
 //! | [`sampled`] | `cli` | what each claim has sampled of the domain |
 //! | [`study`] | `cli` | plans, counts and numbers of scenes as text, CSV and JSON |
+//! | [`grain`] | `cli` | grain and flips of subjects: text, JSON, Markdown |
 //! | [`growth`] | samples until failure: the table, one JSON object a claim, the state that a run continues from |
 //! | [`directory`] | `cli` | all of that as files |
 //! | [`cost`] | `cli` | what was measured of time: tables, JSON Lines, pictures |
@@ -28,6 +29,8 @@ pub mod cost;
 pub mod directory;
 #[cfg(feature = "plots")]
 pub mod figure;
+#[cfg(feature = "cli")]
+pub mod grain;
 #[cfg(feature = "cli")]
 pub mod growth;
 #[cfg(feature = "cli")]

@@ -467,8 +467,18 @@ impl Text {
             }
             (Join::Copula, false) => add!(self, "normal", "robust/copula_isotropic"),
             (Join::Copula, true) => add!(self, "normal", "robust/copula_anisotropic"),
-            (Join::Dithered, false) => add!(self, "robust/dithered_isotropic"),
-            (Join::Dithered, true) => add!(self, "robust/dithered_anisotropic"),
+            (Join::Dithered, false) => {
+                add!(self, "robust/switch_isotropic", "robust/dithered_isotropic");
+            }
+            (Join::Dithered, true) => {
+                add!(self, "robust/switch_anisotropic", "robust/dithered_anisotropic");
+            }
+            (Join::Inherit, false) => {
+                add!(self, "robust/switch_isotropic", "robust/nested", "robust/inherit_isotropic");
+            }
+            (Join::Inherit, true) => {
+                add!(self, "robust/switch_anisotropic", "robust/nested", "robust/inherit_anisotropic");
+            }
         }
         add!(self, "is_finite", "robust/robust");
     }

@@ -5,7 +5,6 @@ use crate::check::input::{Block, cube};
 use crate::check::tolerance::{POWER, SINGLE_LEVEL};
 use crate::check::{Attempt, Claim, Conclusion, Draw, Evidence, Promise, Subject, Trial, Verdict};
 use crate::stats::clusters::{self, Clusters};
-use crate::threshold::robust::Join;
 use crate::threshold::two_scale::Variant;
 
 /// Cells that are seen in two views, 64 x 32 x 32: 1024 blocks of 8 x 8 cells.
@@ -43,7 +42,7 @@ pub const CLUSTER: Claim = Claim {
 };
 
 fn cluster(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
-    if subject.join == Join::Dithered && subject.variant == Variant::Anisotropic {
+    if subject.join.switches() && subject.variant == Variant::Anisotropic {
         // Measured: a correlation of 0.023 in blocks of 8 x 8 cells.
         let reason = "with a scale an axis the dithered join draws one octave for each interval of an axis: slabs of cells flip \
                       together, which is its price";

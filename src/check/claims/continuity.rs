@@ -17,7 +17,6 @@ use crate::check::{Attempt, Claim, Conclusion, Draw, Precision, Promise, Subject
 use crate::scene::Fragment;
 use crate::stats::{binomial, seed};
 use crate::threshold::footprint::Footprint;
-use crate::threshold::robust::Join;
 use crate::threshold::two_scale::Variant;
 use core::f64::consts::FRAC_PI_2;
 use glam::{DVec3, dvec3};
@@ -129,8 +128,7 @@ struct Sweep {
 }
 
 fn sweep(subject: &Subject<'_>, draw: &Draw, claim: &str, motion: &Sweep) -> Attempt<Trial> {
-    let dithered = subject.join == Join::Dithered;
-    if dithered && !motion.monotone {
+    if subject.join.switches() && !motion.monotone {
         let reason = "the dithered join switches as often as a scale passes the place of its cell; \
                       continuity.zoom and continuity.tilt, where each passes once, count the switches";
         return Ok(Trial::without(Conclusion::NotApplicable, reason));
@@ -176,7 +174,7 @@ fn octave_boundary(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     }
     let crossings = pops.steps as f64 / f64::from(2 * BOUNDARY_ULPS);
     let mut trial = pops.into_trial(subject, crossings, "pops per point and power of two");
-    if subject.join == Join::Dithered {
+    if subject.join.switches() {
         // A switch falls into a step with the probability of its length.
         trial.conclusion = Conclusion::Probability(binomial::poisson_upper_p(changes, expected));
     }

@@ -2,6 +2,7 @@
 
 use crate::check::input::{Sighting, general_scenes, independent, placement, sighting};
 use crate::check::judge::detectable_factor;
+use crate::check::predict::same_by_kin;
 use crate::check::shrink::{at, describe_pair, shrunk};
 use crate::check::tolerance::{DRAWS_A_PLACE, MEETING};
 use crate::check::trial::detectable_share;
@@ -10,7 +11,6 @@ use crate::scene::Fragment;
 use crate::stats::binomial;
 use crate::stats::seed::uniform01;
 use crate::threshold::cdf::cdf;
-use crate::threshold::robust::Join;
 use glam::{DVec3, dvec3};
 use rand::rngs::Xoshiro256PlusPlus;
 
@@ -75,7 +75,7 @@ fn cells(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     }
     let thresholds = subject.thresholds(&pairs);
     let (mut within, mut changed, mut across, mut kept) = (0_u64, 0_u64, 0_u64, 0_u64);
-    let mut first = None;
+    let (mut kin, mut first) = (0.0, None);
     for (pair, value) in pairs.chunks_exact(2).zip(thresholds.chunks_exact(2)) {
         let cells = [&pair[0], &pair[1]].map(|at| subject.nominal(&at.footprint));
         let same = value[0].to_bits() == value[1].to_bits();
@@ -85,10 +85,11 @@ fn cells(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
             if !same {
                 first.get_or_insert([pair[0], pair[1]]);
             }
-        } else if subject.join != Join::Dithered || cells[0].coarse_cell != cells[1].coarse_cell {
-            // The dithered join reads one of the two cells; both have changed where the coarse one has.
+        } else if !subject.join.switches() || cells[0].coarse_cell != cells[1].coarse_cell {
+            // A join that switches reads one of the two cells; both have changed where the coarse one has.
             across += 1;
             kept += u64::from(same);
+            kin += same_by_kin(subject, [&cells[0], &cells[1]]);
         }
     }
     if within == 0 || across == 0 {
@@ -97,7 +98,7 @@ fn cells(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
             "no point moved within its cells and across them",
         ));
     }
-    let chance = across as f64 * MEETING;
+    let chance = across as f64 * MEETING + kin;
     let conclusion = if changed > 0 {
         Conclusion::Exact { holds: false }
     } else {
@@ -119,7 +120,9 @@ fn cells(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
         effect: Some(changed_share.max(kept_share)),
         effect_name: "share of points that moved",
         // A change within is seen once it is there; thresholds that are kept have to be more than chance may keep.
-        detectable: Some(detectable_share(within as f64).max(detectable_factor(chance) * MEETING)),
+        detectable: Some(
+            detectable_share(within as f64).max(detectable_factor(chance) * chance / across as f64),
+        ),
         seen: format!(
             "{:.2} % of thresholds change while the point stays in its cells{first}; {:.2} % are kept where it enters another",
             100.0 * changed_share,

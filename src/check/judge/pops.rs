@@ -32,7 +32,7 @@ impl Pops {
     /// one switches once an octave and axis.
     pub fn add_path(&mut self, subject: &Subject<'_>, views: &[Fragment], thresholds: &[f64]) {
         match subject.join {
-            Join::Dithered => self.add_switches(subject, views, thresholds),
+            Join::Dithered | Join::Inherit => self.add_switches(subject, views, thresholds),
             Join::Interpolate | Join::Copula => self.add_jumps(subject, views, thresholds),
         }
     }

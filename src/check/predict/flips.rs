@@ -4,6 +4,7 @@
 //! moves changes its threshold is told by [`pair_law`](super::pair_law). Not in the paper; for hashes that are independent and
 //! uniform.
 
+use super::nested::share_kept;
 use super::shared_cell::copula_joint_visibility;
 use crate::check::Subject;
 use crate::check::subject::Nominal;
@@ -43,12 +44,17 @@ pub fn flip_between(subject: &Subject<'_>, before: &Nominal, after: &Nominal, al
             let correlation = axes.map(|axis| on_scale(before, after, axis, along)).product();
             2.0 * (alpha - copula_joint_visibility(correlation, alpha))
         }
-        Join::Dithered => {
-            let kept = |[low, high]: [f64; 2], octaves: f64| match octaves {
-                0.0 => 1.0 - (high - low),
-                // The cell of one octave that both views can have chosen.
-                1.0 => low * (1.0 - high),
-                _ => 0.0,
+        Join::Dithered | Join::Inherit => {
+            let share = |octaves: f64| share_kept(subject.join, subject.variant, octaves);
+            let kept = |[low, high]: [f64; 2], octaves: f64| {
+                if octaves == 0.0 {
+                    // Both views choose alike but between their fractions.
+                    return 1.0 - (high - low) * (1.0 - share(1.0));
+                }
+                // Each chooses for itself: the finer octave of the one and the coarser one of the other are nearest.
+                let nearest = low * (1.0 - high) * share(octaves - 1.0);
+                let farthest = (1.0 - low) * high * share(octaves + 1.0);
+                nearest + ((1.0 - low) * (1.0 - high) + low * high) * share(octaves) + farthest
             };
             let kept: f64 = axes.map(|axis| on_scale(before, after, axis, kept)).product();
             (1.0 - kept) * redrawn
@@ -179,6 +185,9 @@ mod tests {
             near(flips_of_an_octave(Join::Interpolate, alpha, 4096), expected);
             near(flips_of_an_octave(Join::Interpolate, 1.0 - alpha, 4096), expected);
             near(flips_of_an_octave(Join::Dithered, alpha, 4096), 2.0 * alpha * (1.0 - alpha));
+            // One in 256 cells would have to ask a fifth parent.
+            let inherited = (0.75 + 1.0 / 256.0) * 2.0 * alpha * (1.0 - alpha);
+            near(flips_of_an_octave(Join::Inherit, alpha, 4096), inherited);
             // A quarter turn of a normal vector (Rice 1944).
             let z = normal_quantile(alpha);
             near(flips_of_an_octave(Join::Copula, alpha, 4096), 0.5 * libm::exp(-0.5 * z * z));

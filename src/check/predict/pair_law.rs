@@ -4,12 +4,16 @@
 //! the faces of the cells are at uniform places too, so the probabilities of sharing a cell are products of
 //! `max(0, 1 - |v_i| s_i)` over the axes; what is shared then tells how alike the thresholds are. Not in the paper.
 
+use super::nested::{
+    CORRELATION_IN_HALVES, correlation_in_thirds, reach, visible_in_halves, visible_in_thirds,
+};
 use super::shared_cell::{
     copula_correlation, copula_joint_visibility, interpolated_correlation, interpolated_joint_visibility,
 };
 use crate::check::Subject;
 use crate::check::subject::Nominal;
 use crate::threshold::robust::Join;
+use crate::threshold::robust::nested::LEVELS;
 use crate::threshold::two_scale::Variant;
 use glam::DVec3;
 
@@ -22,6 +26,14 @@ pub enum Relation {
     Interpolated(f64),
     /// They are images of normal values with this correlation.
     Normal(f64),
+    /// They come from two children of one parent, each with a third of [0, 1] of its own, which one hash fills alike or half of
+    /// it apart.
+    Thirds {
+        /// Whether half of it apart.
+        opposite: bool,
+    },
+    /// They come from two opposite children of one parent that share a third of [0, 1], half of it apart.
+    Halves,
 }
 
 /// How two thresholds are related: the relations that can occur with their probabilities; for the rest they are
@@ -46,14 +58,21 @@ impl PairLaw {
             (Join::Interpolate, _) => coarse_only(Relation::Interpolated(nominal.lerp_factor)),
             (Join::Copula, Variant::Anisotropic) => Self::of_corners(coarse, fine, fraction),
             (Join::Copula, _) => coarse_only(Relation::Normal(coarse_share(fraction[0]))),
-            (Join::Dithered, Variant::Anisotropic) => {
+            // Cells beside each other have different names.
+            (Join::Dithered | Join::Inherit, Variant::Anisotropic) => {
                 // Each axis chooses its octave, the same wherever it shares the interval by which it chooses.
                 let chosen =
                     [0, 1, 2].map(|axis| coarse[axis] + fraction[axis] * (fine[axis] - coarse[axis]));
                 Self(vec![(all(chosen), Relation::Same)])
             }
-            (Join::Dithered, _) => {
-                Self(vec![(same_coarse + fraction[0] * (same_fine - same_coarse), Relation::Same)])
+            (Join::Dithered | Join::Inherit, _) => {
+                let mut all = vec![(same_coarse + fraction[0] * (same_fine - same_coarse), Relation::Same)];
+                if subject.join == Join::Inherit {
+                    let same =
+                        |above: i32| kept(nominal.coarse_scale.map(|s| s * libm::exp2(f64::from(-above))));
+                    all.extend(kin(same, fraction[0]));
+                }
+                Self(all)
             }
         }
     }
@@ -76,17 +95,25 @@ impl PairLaw {
         Self((0..8).map(relation).filter(|(probability, _)| *probability > 0.0).collect())
     }
 
-    /// Returns the correlation of the two thresholds, in [0, 1].
+    /// Returns the probability that the thresholds are equal.
+    #[must_use]
+    pub fn same(&self) -> f64 {
+        self.mean(|relation| f64::from(u8::from(relation == Relation::Same)))
+    }
+
+    /// Returns the correlation of the two thresholds, in [-1, 1].
     #[must_use]
     pub fn correlation(&self) -> f64 {
         self.mean(|relation| match relation {
             Relation::Same => 1.0,
             Relation::Interpolated(lerp_factor) => interpolated_correlation(lerp_factor),
             Relation::Normal(correlation) => copula_correlation(correlation),
+            Relation::Thirds { opposite } => correlation_in_thirds(opposite),
+            Relation::Halves => CORRELATION_IN_HALVES,
         })
     }
 
-    /// Returns the correlation of two fragments of the same `alpha` being kept, in [0, 1]. `alpha` in (0, 1).
+    /// Returns the correlation of two fragments of the same `alpha` being kept, in [-1, 1]. `alpha` in (0, 1).
     #[must_use]
     pub fn visibility_correlation(&self, alpha: f64) -> f64 {
         let excess = |both: f64| (both - alpha * alpha) / (alpha * (1.0 - alpha));
@@ -94,11 +121,53 @@ impl PairLaw {
             Relation::Same => 1.0,
             Relation::Interpolated(lerp_factor) => excess(interpolated_joint_visibility(lerp_factor, alpha)),
             Relation::Normal(correlation) => excess(copula_joint_visibility(correlation, alpha)),
+            Relation::Thirds { .. } => excess(visible_in_thirds(alpha)),
+            Relation::Halves => excess(visible_in_halves(alpha)),
         })
     }
 
     fn mean(&self, of: impl Fn(Relation) -> f64) -> f64 {
         self.0.iter().filter(|(p, _)| *p > 0.0).map(|&(p, relation)| p * of(relation)).sum()
+    }
+}
+
+/// The relations of two points of an isotropic threshold beyond those of cells that are shared. `same` returns the probability, along each
+/// axis, that both points lie in one interval so many octaves above the coarse one; -1 for the fine one. `fraction` as in
+/// [`Nominal`].
+fn kin(same: impl Fn(i32) -> [f64; 3], fraction: f64) -> Vec<(f64, Relation)> {
+    let mut found = Vec::new();
+    // Children of one coarse cell, which has chosen the finer octave.
+    of_children(fraction, same(-1), same(0), &mut found);
+    let mut reach = reach(fraction);
+    for above in 0..LEVELS as i32 {
+        // Each of two coarse cells has chosen for itself.
+        of_children(reach * reach, same(above), same(above + 1), &mut found);
+        reach *= 0.25;
+    }
+    found
+}
+
+/// Two cells with one parent: the probability of each relation, from those that both points lie in one interval of the cells and in
+/// one of the parent.
+fn of_children(
+    weight: f64,
+    in_one_cell: [f64; 3],
+    in_one_parent: [f64; 3],
+    found: &mut Vec<(f64, Relation)>,
+) {
+    for apart in 1..8_u32 {
+        let along = |axis: usize| {
+            let in_one_cell = in_one_cell[axis];
+            if apart >> axis & 1 == 1 { in_one_parent[axis] - in_one_cell } else { in_one_cell }
+        };
+        let probability = weight * along(0) * along(1) * along(2);
+        if apart == 7 {
+            found.push((0.25 * probability, Relation::Same));
+            found.push((0.75 * probability, Relation::Halves));
+        } else {
+            // In one of two cases one of the pairs is that which keeps.
+            found.push((0.5 * probability, Relation::Thirds { opposite: apart >> 2 & 1 == 1 }));
+        }
     }
 }
 

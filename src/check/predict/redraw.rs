@@ -1,5 +1,6 @@
 //! How many thresholds a motion changes, from the cells that a subject claims to have.
 
+use super::PairLaw;
 use crate::check::Subject;
 use crate::check::subject::Nominal;
 use crate::check::tolerance::MEETING;
@@ -28,7 +29,7 @@ impl Changes {
         let probability = probability(subject, &nominal, motion);
         self.mean += probability;
         self.alone += probability * (1.0 - probability);
-        if (subject.join, subject.variant) != (Join::Dithered, Variant::Anisotropic) {
+        if !(subject.join.switches() && subject.variant == Variant::Anisotropic) {
             return;
         }
         let axes = axes(&nominal, motion);
@@ -83,10 +84,11 @@ fn probability(subject: &Subject<'_>, nominal: &Nominal, motion: glam::DVec3) ->
         // The finer of the two grids decides, since a coarse cell is a union of fine ones.
         (Join::Interpolate | Join::Copula, _) => fine,
         // The coarse cell chooses, and the fine one counts where it was chosen.
-        (Join::Dithered, Variant::Anisotropic) => {
+        (Join::Dithered | Join::Inherit, Variant::Anisotropic) => {
             1.0 - axes(nominal, motion).iter().map(Axis::kept).product::<f64>()
         }
         (Join::Dithered, _) => coarse + nominal.fraction[0] * (fine - coarse),
+        (Join::Inherit, _) => 1.0 - PairLaw::new(subject, nominal, motion).same(),
     }
 }
 

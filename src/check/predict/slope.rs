@@ -38,7 +38,7 @@ pub(crate) fn largest_change(subject: &Subject<'_>, before: &Nominal, after: &No
     let slope = match (subject.join, subject.variant) {
         (Join::Copula, Variant::Anisotropic) => COPULA_SLOPE_OF_AN_AXIS * distance.iter().sum::<f64>(),
         (Join::Copula, _) => COPULA_SLOPE * distance[0],
-        (Join::Interpolate | Join::Dithered, _) => {
+        (Join::Interpolate | Join::Dithered | Join::Inherit, _) => {
             INTERPOLATION_SLOPE * distance.into_iter().fold(0.0, f64::max)
         }
     };

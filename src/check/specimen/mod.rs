@@ -18,6 +18,7 @@ mod ideal;
 mod input;
 mod join;
 pub mod matrix;
+mod nested;
 mod octave;
 mod pattern;
 mod port;
@@ -28,7 +29,7 @@ pub use defect::Specimen;
 pub use ideal::{Ideal, ideal};
 
 /// The specimens, family by family.
-const FAMILIES: [&[Specimen]; 14] = [
+const FAMILIES: [&[Specimen]; 15] = [
     input::FAMILY,
     derivative::FAMILY,
     octave::FAMILY,
@@ -37,6 +38,7 @@ const FAMILIES: [&[Specimen]; 14] = [
     relation::FAMILY,
     pattern::FAMILY,
     join::FAMILY,
+    nested::FAMILY,
     cdf::FAMILY,
     clamp::FAMILY,
     bias::FAMILY,

@@ -26,6 +26,10 @@ impl Kernel for f64 {
         f64::from_bits(((i64::from(octave) + 1023) << 52) as u64)
     }
     #[inline(always)]
+    fn whole(number: i32) -> Self {
+        f64::from(number)
+    }
+    #[inline(always)]
     fn lattice(word: u32) -> Self {
         f64::from((2 * (word >> 9) + 1) as i32) * (1.0 / 16_777_216.0)
     }

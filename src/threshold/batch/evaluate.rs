@@ -7,6 +7,7 @@ use super::cells::{at_octaves, at_scale, hash, words};
 use super::columns::{BlockColumns, Columns};
 use super::isa::Job;
 use super::lane::Kernel;
+use super::nested::{Shares, names};
 use super::octaves::{Octaves, is_plain, longest_derivative, reaches};
 use super::plan::Plan;
 use crate::threshold::cdf::{CdfForm, cdf, cdf_literal};
@@ -66,6 +67,8 @@ struct Stages<R> {
     word: Block<u32>,
     /// The octaves of the cells that are chosen.
     chosen: [Block<i32>; 3],
+    /// What the chosen cells have of their parents.
+    shares: Shares,
     /// The last two hashes, in turn.
     hashes: [Block<R>; 2],
     /// Where there is no octave: the two scales, and the weight of the second.
@@ -85,6 +88,7 @@ impl<R: Kernel> Stages<R> {
             fine: [zeros; 3],
             word: [0; BLOCK],
             chosen: [[0; BLOCK]; 3],
+            shares: Shares::new(),
             hashes: [zeros; 2],
             scales: [zeros; 2],
             weight: zeros,
@@ -104,7 +108,7 @@ impl<R: Kernel> Stages<R> {
         if by_octave {
             self.octaves.find::<FUSED>(plan, block);
             at_octaves::<R, FUSED>(plan, block, &self.octaves.coarse, &mut self.coarse);
-            if plan.join != Join::Dithered {
+            if !plan.join.switches() {
                 at_octaves::<R, FUSED>(plan, block, &self.octaves.fine, &mut self.fine);
             }
         } else {
@@ -119,15 +123,16 @@ impl<R: Kernel> Stages<R> {
             match plan.join {
                 Join::Interpolate => {}
                 Join::Copula => self.add_quantiles(plan, look),
-                Join::Dithered if look < plan.axes => self.choose(look),
-                Join::Dithered => {}
+                Join::Dithered | Join::Inherit if look < plan.axes => self.choose(look),
+                Join::Dithered | Join::Inherit => {}
             }
         }
         match (plan.variant, plan.join) {
             (Variant::Single, _) => *out = self.hashes[0],
             (_, Join::Interpolate) => self.interpolate(plan, out),
             (_, Join::Copula) => self.normal_cdf(plan, out),
-            (_, Join::Dithered) => *out = self.hashes[(looks - 1) % 2],
+            (Variant::Isotropic, Join::Inherit) => self.shares.of_hashes(&self.hashes[(looks - 1) % 2], out),
+            (_, Join::Dithered | Join::Inherit) => *out = self.hashes[(looks - 1) % 2],
         }
         self.finish(plan, out);
     }
@@ -136,8 +141,8 @@ impl<R: Kernel> Stages<R> {
     #[inline(always)]
     fn look<const FUSED: bool>(&mut self, plan: &Plan<R>, block: &BlockColumns<'_, R>, look: usize) {
         let zeros = [R::from_f64(0.0); BLOCK];
-        let Self { octaves, coarse, fine, word, chosen, scales, .. } = self;
-        let chooses = plan.join == Join::Dithered && look < plan.axes;
+        let Self { octaves, coarse, fine, word, chosen, shares, scales, .. } = self;
+        let chooses = plan.join.switches() && look < plan.axes;
         let index = if matches!(plan.variant, Variant::Linear | Variant::Single) {
             for i in 0..BLOCK {
                 // The derivative stands in for the octave in the one, nothing in the other.
@@ -145,9 +150,15 @@ impl<R: Kernel> Stages<R> {
             }
             at_scale::<R, FUSED>(block, &scales[look], coarse);
             coarse.each_ref()
-        } else if plan.join == Join::Dithered && !chooses {
+        } else if plan.join.switches() && !chooses {
             at_octaves::<R, FUSED>(plan, block, chosen, fine);
-            words(plan, chosen.each_ref(), word);
+            match (plan.join, plan.axes) {
+                (Join::Inherit, 1) => shares.find(plan, fine, &chosen[0], word),
+                (Join::Inherit, _) => names(plan, fine, chosen, word),
+                (Join::Interpolate | Join::Copula | Join::Dithered, _) => {
+                    words(plan, chosen.each_ref(), word);
+                }
+            }
             fine.each_ref()
         } else if chooses && plan.axes == 3 {
             for i in 0..BLOCK {

@@ -30,6 +30,8 @@ pub trait Kernel: Real {
     }
     /// Returns two to the power of `octave`, exactly, for an octave of a normal number.
     fn power(octave: i32) -> Self;
+    /// Returns a whole number of magnitude up to [`Real::SMALL`].
+    fn whole(number: i32) -> Self;
     /// [`open_lattice`](crate::threshold::hash::open_lattice).
     fn lattice(word: u32) -> Self;
     /// Returns the octave of a scale and the place in it, in [0, 1], by the logarithm.
@@ -65,6 +67,10 @@ impl Kernel for f32 {
     #[inline(always)]
     fn power(octave: i32) -> Self {
         f32::from_bits((octave.wrapping_add(127) << 23) as u32)
+    }
+    #[inline(always)]
+    fn whole(number: i32) -> Self {
+        number as f32
     }
     #[inline(always)]
     fn lattice(word: u32) -> Self {

@@ -31,6 +31,7 @@ mod evaluate;
 mod evaluator;
 pub mod isa;
 pub(in crate::threshold) mod lane;
+mod nested;
 mod octaves;
 mod plan;
 pub(crate) mod slices;

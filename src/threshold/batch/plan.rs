@@ -103,7 +103,7 @@ impl<R: Kernel> Plan<R> {
             (Variant::Single, _) => 1,
             (Variant::Linear, _) | (_, Join::Interpolate) => 2,
             (_, Join::Copula) => 1 << self.axes,
-            (_, Join::Dithered) => self.axes + 1,
+            (_, Join::Dithered | Join::Inherit) => self.axes + 1,
         }
     }
 }

@@ -5,7 +5,9 @@
 //! | [`Join::Interpolate`] | 2, 2 | by Eq. 2 | continuous; with one scale an axis it jumps at every octave of an axis |
 //! | [`Join::Copula`] | 2, 8 | for any weights | continuous |
 //! | [`Join::Dithered`] | 2 of 3, 1 and 3 of one dimension | by construction | each cell switches once an octave; with one scale an axis, each slab of cells |
+//! | [`Join::Inherit`] | as `Dithered` | by construction | as `Dithered`; of those that switch, a quarter keep their threshold, with one scale an axis a half |
 
+use super::nested::{inherited, named};
 use super::repairs::{Repair, Repairs};
 use super::scales::{Scales, corner_weight, nested_cell};
 use crate::threshold::cdf::{cdf, cdf_literal};
@@ -29,11 +31,17 @@ pub enum Join {
     /// One of the two hashes, chosen by a third hash of the coarse cell: no mixture and no CDF, and as few changes of
     /// visibility under zoom as any join can have. Not in the paper.
     Dithered,
+    /// [`Join::Dithered`] with cells that inherit: one in four children keeps the threshold of its parent, with one scale an
+    /// axis one in two along each axis, so that a quarter or half of what the dithered join changes under zoom stays
+    /// ([`nested`]). With one scale the other children share the rest of [0, 1], which makes less grain. Not in the paper.
+    ///
+    /// [`nested`]: crate::threshold::robust::nested
+    Inherit,
 }
 
 impl Join {
     /// Every join, in the order in which they are listed to users.
-    pub const ALL: [Self; 3] = [Self::Interpolate, Self::Copula, Self::Dithered];
+    pub const ALL: [Self; 4] = [Self::Interpolate, Self::Copula, Self::Dithered, Self::Inherit];
 
     /// The name by which a user asks for it.
     #[must_use]
@@ -42,6 +50,16 @@ impl Join {
             Self::Interpolate => "interpolate",
             Self::Copula => "copula",
             Self::Dithered => "dithered",
+            Self::Inherit => "inherit",
+        }
+    }
+
+    /// Whether a cell takes one of its two octaves, and changes from the one to the other at once.
+    #[must_use]
+    pub const fn switches(self) -> bool {
+        match self {
+            Self::Interpolate | Self::Copula => false,
+            Self::Dithered | Self::Inherit => true,
         }
     }
 
@@ -50,8 +68,8 @@ impl Join {
     pub const fn hashes(self, variant: Variant) -> u64 {
         match (self, variant) {
             (Self::Copula, Variant::Anisotropic) => 8,
-            (Self::Dithered, Variant::Anisotropic) => 4,
-            (Self::Interpolate | Self::Copula | Self::Dithered, _) => 2,
+            (Self::Dithered | Self::Inherit, Variant::Anisotropic) => 4,
+            (Self::Interpolate | Self::Copula | Self::Dithered | Self::Inherit, _) => 2,
         }
     }
 }
@@ -78,7 +96,7 @@ pub struct Joined<R: Real> {
     pub hash_coarse: R,
     /// Hash of the cell that is fine along every axis.
     pub hash_fine: R,
-    /// The mixture before it is made uniform; the threshold itself for the dithered join.
+    /// The mixture before it is made uniform; the threshold itself for joins that mix nothing.
     pub interpolated: R,
     /// The threshold before the last clamp.
     pub uniform: R,
@@ -129,9 +147,19 @@ pub(super) fn joined<R: Real, H: Hash<R>>(
             (scales.fraction, chosen, chosen)
         }
         Join::Dithered => {
-            let choice = hash.hash(&Cell { octave: coarse.octave ^ CHOICE, ..coarse });
+            let is_fine = is_fine(hash, &coarse, scales);
             // By its place in memory: what a hash decides, no predictor of branches foretells.
-            let chosen = hash.hash(&[coarse, fine][usize::from(scales.fraction[0] > choice)]);
+            let chosen = hash.hash(&[coarse, fine][usize::from(is_fine)]);
+            (scales.fraction, chosen, chosen)
+        }
+        Join::Inherit if anisotropic => {
+            let chosen = hash.hash(&corners.named(takes_fine(hash, &coarse, scales)));
+            (scales.fraction, chosen, chosen)
+        }
+        Join::Inherit => {
+            let is_fine = usize::from(is_fine(hash, &coarse, scales));
+            let octave = [scales.octave[0], scales.next_octave[0]][is_fine];
+            let chosen = inherited(hash, [coarse, fine][is_fine].index.into(), octave, repairs);
             (scales.fraction, chosen, chosen)
         }
     };
@@ -153,6 +181,22 @@ impl<R: Real> Corners<'_, R> {
         let Scales { octave, next_octave, .. } = self.scales;
         let index = choose(is_fine, self.fine, self.coarse);
         let octave = choose(is_fine, *next_octave, *octave);
+        self.at(index, octave)
+    }
+
+    /// The same by the names of its intervals.
+    #[inline(always)]
+    fn named(&self, is_fine: [bool; 3]) -> Cell<R> {
+        let Scales { octave, next_octave, .. } = self.scales;
+        let index = choose(is_fine, self.fine, self.coarse);
+        let octave = choose(is_fine, *next_octave, *octave);
+        let nested_phase = self.repairs.contains(Repair::NestedPhase);
+        let [x, y, z] = [0, 1, 2].map(|axis| named(index[axis].to_word() as i32, octave[axis], nested_phase));
+        self.at([x.0, y.0, z.0].map(|index| R::from_f64(f64::from(index))), [x.1, y.1, z.1])
+    }
+
+    #[inline(always)]
+    fn at(&self, index: [R; 3], octave: [i32; 3]) -> Cell<R> {
         let word = if self.repairs.contains(Repair::OctaveWord) { octave_word(octave) } else { 0 };
         Cell { index: index.into(), octave: word }
     }
@@ -178,6 +222,12 @@ pub(in crate::threshold) const CHOICE: u32 = 0x6a09_e667;
 
 /// The same for each axis that chooses alone: the roots of 3, 5 and 7.
 const CHOICE_OF_AXIS: [u32; 3] = [0xbb67_ae85, 0x3c6e_f372, 0xa54f_f53a];
+
+/// Whether a cell takes its finer octave: chosen by its own hash.
+#[inline(always)]
+fn is_fine<R: Real>(hash: &impl Hash<R>, coarse: &Cell<R>, scales: &Scales<R>) -> bool {
+    scales.fraction[0] > hash.hash(&Cell { octave: coarse.octave ^ CHOICE, ..*coarse })
+}
 
 /// The one-dimensional cell by which an axis chooses its octave: its own interval and octave, nothing of the others.
 #[inline(always)]

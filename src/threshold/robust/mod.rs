@@ -5,6 +5,7 @@
 //! total: every bit pattern of its inputs gives a threshold in [2^-24, 1] or an [`InvalidInput`].
 
 pub mod join;
+pub mod nested;
 pub mod repairs;
 pub mod scales;
 
@@ -128,7 +129,7 @@ impl<H> Robust<H> {
     where
         H: Hash<R>,
     {
-        use Join::{Copula, Dithered, Interpolate};
+        use Join::{Copula, Dithered, Inherit, Interpolate};
         use Variant::{Anisotropic, Isotropic};
         const ALL: Repairs = Repairs::ALL;
         // Each arm is compiled for what it names.
@@ -136,10 +137,12 @@ impl<H> Robust<H> {
             (false, Interpolate) if self.repairs == ALL => self.made(Isotropic, Interpolate, ALL, footprint),
             (false, Copula) if self.repairs == ALL => self.made(Isotropic, Copula, ALL, footprint),
             (false, Dithered) if self.repairs == ALL => self.made(Isotropic, Dithered, ALL, footprint),
+            (false, Inherit) if self.repairs == ALL => self.made(Isotropic, Inherit, ALL, footprint),
             (true, Interpolate) if self.repairs == ALL => self.made(Anisotropic, Interpolate, ALL, footprint),
             (true, Copula) if self.repairs == ALL => self.made(Anisotropic, Copula, ALL, footprint),
             (true, Dithered) if self.repairs == ALL => self.made(Anisotropic, Dithered, ALL, footprint),
-            (_, Interpolate | Copula | Dithered) => {
+            (true, Inherit) if self.repairs == ALL => self.made(Anisotropic, Inherit, ALL, footprint),
+            (_, Interpolate | Copula | Dithered | Inherit) => {
                 self.made(self.variant, self.join, self.repairs, footprint)
             }
         };

@@ -127,4 +127,10 @@ pub(super) const STAGES: &[Stage] = &[
     robust_stage!(
         "threshold robust anisotropic dithered", Class::Bits, Anisotropic, Dithered, steady, ["0xbb67ae85u", "0xbb67ae84u"]
     ),
+    robust_stage!(
+        "threshold robust isotropic inherit", Class::Bits, Isotropic, Inherit, steady, ["0x846ca68bu", "0x846ca68du"]
+    ),
+    robust_stage!(
+        "threshold robust anisotropic inherit", Class::Bits, Anisotropic, Inherit, steady, ["vec3<u32>(0x10000u)", "vec3<u32>(1u)"]
+    ),
 ];
