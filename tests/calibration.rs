@@ -137,6 +137,8 @@ fn about_others(subject: &Subject<'_>) -> Vec<&'static str> {
         // Eq. 2 belongs to the paper's join.
         claims.extend(["exact.cdf", "uniform.without_cdf"]);
     }
+    // No cell here inherits.
+    claims.extend(["nested.children", "nested.kept", "nested.order"]);
     // Nothing here goes through a sequence.
     claims.push("frames.sequence");
     if subject.frames == Frames::Static {

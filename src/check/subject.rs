@@ -531,6 +531,12 @@ impl<'a> Subject<'a> {
         })
     }
 
+    /// Whether cells of one octave know of each other, as the children of one parent do.
+    #[must_use]
+    pub fn has_kin(&self) -> bool {
+        self.join == Join::Inherit && self.variant != Variant::Anisotropic
+    }
+
     /// The same with a join of octaves that is named.
     #[must_use]
     pub fn all_repairs_by(join: Join) -> Vec<Self> {

@@ -19,6 +19,7 @@ pub mod hash;
 pub mod independence;
 pub mod lags;
 pub mod layers;
+pub mod nested;
 pub mod noise_scale;
 pub mod planes;
 pub mod range;
@@ -40,6 +41,7 @@ const BEYOND_A_HASH: &[&str] = &[
     "stability",
     "noise_scale",
     "spectrum",
+    "nested",
     "flips",
     "coordinates",
     "domain",
@@ -57,6 +59,30 @@ pub fn is_beyond_a_hash(id: &str) -> bool {
         id.strip_prefix(*family).is_some_and(|rest| matches!(rest.as_bytes(), [] | [b'.', ..]))
     };
     BEYOND_A_HASH.iter().any(is_of)
+}
+
+/// Claims on cells that know nothing of each other: those of one parent do, where a join is nested.
+const ABOUT_STRANGERS: &[&str] = &[
+    "independence.neighbours",
+    "independence.diagonals",
+    "independence.across_zero",
+    "independence.octaves",
+    "hash.children",
+    "hash.differences",
+    "hash.lags",
+    "hash.copies",
+    "hash.octave_copies",
+    "hash.triples",
+    "hash.squares",
+    "hash.avalanche",
+    "domain.neighbours",
+];
+
+/// Returns whether a claim of this identifier is about cells that are independent, as children of one parent are not
+/// ([`nested`], which has claims on those).
+#[must_use]
+pub fn is_about_strangers(id: &str) -> bool {
+    ABOUT_STRANGERS.contains(&id)
 }
 
 /// Every claim, in the order of the report.
@@ -108,6 +134,9 @@ pub const ALL: &[Claim] = &[
     flips::TILT,
     flips::SKINNING,
     cluster::CLUSTER,
+    nested::CHILDREN,
+    nested::KEPT,
+    nested::ORDER,
     coordinates::OBJECT,
     determinism::TWO_PASSES,
     determinism::ARGUMENTS,
@@ -139,6 +168,11 @@ pub const ALL: &[Claim] = &[
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn claims_on_strangers_exist() {
+        assert!(ABOUT_STRANGERS.iter().all(|id| ALL.iter().any(|claim| claim.id == *id)));
+    }
 
     #[test]
     fn every_family_is_about_cells_or_about_more() {

@@ -36,7 +36,7 @@ pub(super) fn reach(fraction: f64) -> f64 {
 /// The probability that two footprints of one view have one threshold though they share no cell: opposite children that both keep what
 /// their parent has.
 pub(crate) fn same_by_kin(subject: &Subject<'_>, [one, other]: [&Nominal; 2]) -> f64 {
-    if subject.join != Join::Inherit || subject.variant == Variant::Anisotropic {
+    if !subject.has_kin() {
         return 0.0;
     }
     let mut octave = libm::log2(one.coarse_scale[0]) as i64;

@@ -67,7 +67,7 @@ impl PairLaw {
             }
             (Join::Dithered | Join::Inherit, _) => {
                 let mut all = vec![(same_coarse + fraction[0] * (same_fine - same_coarse), Relation::Same)];
-                if subject.join == Join::Inherit {
+                if subject.has_kin() {
                     let same =
                         |above: i32| kept(nominal.coarse_scale.map(|s| s * libm::exp2(f64::from(-above))));
                     all.extend(kin(same, fraction[0]));
