@@ -13,7 +13,7 @@ fn murmur_step(state: u32, word: u32) -> u32 {
 
 /// Ends MurmurHash3 over four words.
 #[inline(always)]
-fn murmur_end(state: u32) -> u32 {
+pub(super) fn murmur_end(state: u32) -> u32 {
     let h = state ^ 16;
     let h = (h ^ (h >> 16)).wrapping_mul(0x85eb_ca6b);
     let h = (h ^ (h >> 13)).wrapping_mul(0xc2b2_ae35);
