@@ -43,6 +43,7 @@ pub(crate) const ENTRY: Listed = Listed {
         include_str!("../../shader/chunk/open_lattice.wgsl"),
         include_str!("../../shader/chunk/rotated_left.wgsl"),
         include_str!("../../shader/chunk/hash/murmur.wgsl"),
+        include_str!("../../shader/chunk/hash/murmur_end.wgsl"),
         include_str!("../../shader/chunk/hash_cell/mm4.wgsl"),
     ],
     #[cfg(feature = "gpu")]

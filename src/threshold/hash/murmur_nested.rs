@@ -20,8 +20,7 @@ pub(crate) const ENTRY: Listed = Listed {
         include_str!("../../shader/chunk/to_word.wgsl"),
         include_str!("../../shader/chunk/words.wgsl"),
         include_str!("../../shader/chunk/open_lattice.wgsl"),
-        include_str!("../../shader/chunk/rotated_left.wgsl"),
-        include_str!("../../shader/chunk/hash/murmur.wgsl"),
+        include_str!("../../shader/chunk/hash/murmur_end.wgsl"),
         include_str!("../../shader/chunk/hash_cell/murmur_nested.wgsl"),
     ],
     #[cfg(feature = "gpu")]

@@ -2,7 +2,7 @@
 fn tea(words: vec2<u32>) -> vec2<u32> {
     var v = words;
     var sum = 0u;
-    for (var round = 0u; round < 3u; round++) {
+    for (var turn = 0u; turn < 3u; turn++) {
         sum += 0x9e3779b9u;
         v.x += ((v.y << 4u) + 0xa341316cu) ^ (v.y + sum) ^ ((v.y >> 5u) + 0xc8013ea4u);
         v.y += ((v.x << 4u) + 0xad90777du) ^ (v.x + sum) ^ ((v.x >> 5u) + 0x7e95761eu);
