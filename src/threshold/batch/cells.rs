@@ -91,6 +91,9 @@ fn hash_by<R: Kernel, H: OfBlocks, const FUSED: bool>(
     word: &Block<u32>,
     out: &mut Block<R>,
 ) {
+    if !H::ASKS_SINE {
+        return H::block::<R, FUSED>(R::sine_fast, index, word, out);
+    }
     match tier {
         Tier::Coarse => H::block::<R, FUSED>(R::sine_coarse, index, word, out),
         Tier::Fast => H::block::<R, FUSED>(R::sine_fast, index, word, out),

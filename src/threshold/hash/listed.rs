@@ -21,6 +21,9 @@ pub(crate) struct Listed {
 
 /// A hash over a block of cells, without a branch.
 pub(in crate::threshold) trait OfBlocks {
+    /// Whether it asks for a sine: the others are the same loop in every tier, and are compiled once.
+    const ASKS_SINE: bool = false;
+
     /// Writes the hashes of cells; `sine` is that of the tier, `FUSED` as in [`Kernel`].
     fn block<R: Kernel, const FUSED: bool>(
         sine: impl Fn(R) -> R + Copy,

@@ -13,7 +13,7 @@ fn murmur_step(state: u32, word: u32) -> u32 {
 
 /// Ends MurmurHash3 over four words.
 #[inline(always)]
-fn murmur_end(state: u32) -> u32 {
+pub(super) fn murmur_end(state: u32) -> u32 {
     let h = state ^ 16;
     let h = (h ^ (h >> 16)).wrapping_mul(0x85eb_ca6b);
     let h = (h ^ (h >> 13)).wrapping_mul(0xc2b2_ae35);
@@ -43,6 +43,7 @@ pub(crate) const ENTRY: Listed = Listed {
         include_str!("../../shader/chunk/open_lattice.wgsl"),
         include_str!("../../shader/chunk/rotated_left.wgsl"),
         include_str!("../../shader/chunk/hash/murmur.wgsl"),
+        include_str!("../../shader/chunk/hash/murmur_end.wgsl"),
         include_str!("../../shader/chunk/hash_cell/mm4.wgsl"),
     ],
     #[cfg(feature = "gpu")]

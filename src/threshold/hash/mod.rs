@@ -1,11 +1,13 @@
 //! Hashes of a cell: from integral coordinates (and an octave) to a value that should look like a draw from U(0, 1).
 //!
-//! [`sine`] and [`sine_chi_2`] are the paper's own; the others are exact on every machine. [`offset`] makes independent hashes
-//! out of one. A hash is one file here, one chunk of WGSL in `shader/chunk/hash_cell`, and one line of the list below.
+//! [`sine`] and [`sine_chi_2`] are the paper's own; of the others, those of integers are exact on every machine. Not all are sound:
+//! some are here because shaders use them. [`offset`] makes independent hashes out of one. A hash is one file here, one chunk of WGSL
+//! in `shader/chunk/hash_cell`, and one line of the list below.
 
 mod cell;
 mod listed;
 pub mod offset;
+mod reals;
 mod words;
 
 pub use super::choice::UnknownName;
@@ -29,6 +31,23 @@ macro_rules! hashes {
             Pcg3d = pcg3d, "The first word of PCG3D over x, y, z; does not read the octave.";
             Pcg4d = pcg4d, "The first word of PCG4D over x, y, z and the octave.";
             PcgNested = pcg_nested, "The one-dimensional PCG, nested over the octave, z, y and x.";
+            LowbiasLinear = lowbias_linear, "`lowbias32` of a sum of x, y, z and the octave with weights.";
+            LowbiasNested = lowbias_nested, "`lowbias32`, nested over the octave, z, y and x.";
+            TripleLinear = triple_linear, "`triple32` of a sum of x, y, z and the octave with weights.";
+            MurmurNested = murmur_nested, "The end of MurmurHash3, nested over the octave, z, y and x.";
+            WangNested = wang_nested, "Wang's 32-bit hash, nested over the octave, z, y and x.";
+            EsgtsaNested = esgtsa_nested, "The hash of Schechter & Bridson, nested over the octave, z, y and x.";
+            Wyhash32 = wyhash32, "wyhash for 32-bit machines over x, y, z and the octave.";
+            Squirrel5 = squirrel5, "Squirrel noise, version 5, over x, y, z, seeded with the octave.";
+            Tea3 = tea3, "Three rounds of TEA over x and y, mixed with z and the octave, and three more.";
+            Iqint3 = iqint3, "Integer Hash III of Quilez over x, y, z and the octave.";
+            OneAtATime = one_at_a_time, "Jenkins's one at a time over x, y, z and the octave.";
+            Superfast = superfast, "SuperFastHash over x, y, z and the octave.";
+            Fnv1a = fnv1a, "FNV-1a over x, y, z and the octave.";
+            Teschner = teschner, "The spatial hash of Teschner et al. over x, y, z and the octave.";
+            Weyl = weyl, "The additive recurrence R3 over x, y, z and the octave: a lattice.";
+            Hoskins = hoskins, "Hoskins's hash without sine over x, y, z; does not read the octave.";
+            InterleavedGradient = interleaved_gradient, "Interleaved gradient noise over x, y, z; does not read the octave.";
         }
     };
 }

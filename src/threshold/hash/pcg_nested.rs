@@ -1,7 +1,7 @@
 //! The one-dimensional PCG, nested over the words of a cell (Jarzynski & Olano 2020). Not in the paper.
 
 use super::listed::Listed;
-use super::words::integer_hash;
+use super::words::{integer_hash, nested};
 
 /// Returns the one-dimensional PCG hash of a word (RXS-M-XS; Jarzynski & Olano 2020).
 #[inline(always)]
@@ -14,7 +14,7 @@ pub fn pcg(word: u32) -> u32 {
 
 integer_hash! {
     /// [`pcg`] nested over the octave, z, y and x, each result added to the next word.
-    PcgNested, |[x, y, z, octave]| [octave, z, y, x].into_iter().fold(0, |h, word| pcg(h.wrapping_add(word)))
+    PcgNested, |words| nested(words, pcg)
 }
 
 /// What the list of hashes says of it.

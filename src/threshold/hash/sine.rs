@@ -84,6 +84,8 @@ pub(super) fn coordinates<R: Real, const N: usize>(cells: [Cell<R>; N]) -> [[R; 
 }
 
 impl OfBlocks for Sine {
+    const ASKS_SINE: bool = true;
+
     #[inline(always)]
     fn block<R: Kernel, const FUSED: bool>(
         sine: impl Fn(R) -> R + Copy,

@@ -34,6 +34,8 @@ impl<R: Real> Hash<R> for SineChi2 {
 }
 
 impl OfBlocks for SineChi2 {
+    const ASKS_SINE: bool = true;
+
     #[inline(always)]
     fn block<R: Kernel, const FUSED: bool>(
         sine: impl Fn(R) -> R + Copy,
