@@ -14,10 +14,6 @@ use rayon::prelude::*;
 /// for a second try.
 pub const SUSPICION: f64 = 1.0e-2;
 
-/// Why some claims say nothing about a join that is nested.
-const KIN: &str = "children of one cell share [0, 1] among them, so that neighbours know of each other; nested.children, nested.kept \
-                   and nested.order say how";
-
 /// Why a claim says nothing about a bare hash.
 const BARE_HASH: &str = "a bare hash has one cell and no more: the claim is about what a threshold makes of two cells, or about what \
                          changes while one looks";
@@ -108,8 +104,8 @@ pub(super) fn held(subject: &Subject<'_>, claim: &Claim, draw: &Draw) -> Trial {
     if subject.bare_hash && claims::is_beyond_a_hash(claim.id) {
         return Trial::without(Conclusion::NotApplicable, BARE_HASH);
     }
-    if subject.has_kin() && claims::is_about_strangers(claim.id) {
-        return Trial::without(Conclusion::NotApplicable, KIN);
+    if let Some(reason) = claims::not_of_kin(subject, claim.id) {
+        return Trial::without(Conclusion::NotApplicable, reason);
     }
     let unavailable = || subject.failure().map(|reason| Trial::without(Conclusion::Unavailable, reason));
     unavailable().unwrap_or_else(|| {

@@ -124,7 +124,7 @@ impl Worst {
 fn uniform(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     let mut rng = draw.rng(UNIFORM.id);
     let settings = Settings::draw(subject, draw, &mut rng);
-    let mut cells = DistinctCells::new(draw);
+    let mut cells = DistinctCells::new(subject, draw);
     let mut pools = Pools::new(Histogram::new(BINS));
     settings.each(subject, |subject, some| {
         let groups: Vec<Vec<[Fragment; 1]>> = some
@@ -275,7 +275,7 @@ impl Table {
 fn pairs(claim: &Claim, subject: &Subject<'_>, draw: &Draw, partner: Partner) -> Attempt<Trial> {
     let mut rng = draw.rng(claim.id);
     let settings = Settings::draw(subject, draw, &mut rng);
-    let mut cells = DistinctCells::new(draw);
+    let mut cells = DistinctCells::new(subject, draw);
     let mut pools = Pools::new(Table::new());
     settings.each(subject, |subject, some| {
         let groups: Vec<Vec<[Fragment; 2]>> = some

@@ -28,7 +28,9 @@ pub mod spectrum;
 pub mod stability;
 pub mod uniform;
 
+use super::Subject;
 use super::claim::Claim;
+use crate::threshold::robust::Join;
 
 /// Families of claims, and single claims, that are about more than the values of cells: about what a threshold makes of two
 /// octaves, or about what changes while one looks.
@@ -61,28 +63,39 @@ pub fn is_beyond_a_hash(id: &str) -> bool {
     BEYOND_A_HASH.iter().any(is_of)
 }
 
-/// Claims on cells that know nothing of each other: those of one parent do, where a join is nested.
-const ABOUT_STRANGERS: &[&str] = &[
+/// Claims on cells of two octaves that know nothing of each other: some keep what their parent has, where a join is nested.
+const ACROSS_OCTAVES: &[&str] = &["hash.children", "hash.octave_copies"];
+
+/// Claims on cells of one octave that know nothing of each other: those of one parent do, where they share [0, 1].
+const AMONG_CELLS: &[&str] = &[
     "independence.neighbours",
     "independence.diagonals",
     "independence.across_zero",
     "independence.octaves",
-    "hash.children",
     "hash.differences",
     "hash.lags",
     "hash.copies",
-    "hash.octave_copies",
     "hash.triples",
     "hash.squares",
     "hash.avalanche",
     "domain.neighbours",
 ];
 
-/// Returns whether a claim of this identifier is about cells that are independent, as children of one parent are not
-/// ([`nested`], which has claims on those).
+/// Returns why a claim of this identifier says nothing about a subject whose join is nested: it is about cells that are independent.
 #[must_use]
-pub fn is_about_strangers(id: &str) -> bool {
-    ABOUT_STRANGERS.contains(&id)
+pub fn not_of_kin(subject: &Subject<'_>, id: &str) -> Option<&'static str> {
+    if subject.join == Join::Inherit && ACROSS_OCTAVES.contains(&id) {
+        Some(
+            "some cells keep the threshold of the cell that they came from; flips.zoom and its kin ask how many",
+        )
+    } else if subject.has_kin() && AMONG_CELLS.contains(&id) {
+        Some(
+            "children of one cell share [0, 1] among them, so that neighbours know of each other; nested.children, nested.kept \
+             and nested.order ask how",
+        )
+    } else {
+        None
+    }
 }
 
 /// Every claim, in the order of the report.
@@ -171,7 +184,7 @@ mod tests {
 
     #[test]
     fn claims_on_strangers_exist() {
-        assert!(ABOUT_STRANGERS.iter().all(|id| ALL.iter().any(|claim| claim.id == *id)));
+        assert!(ACROSS_OCTAVES.iter().chain(AMONG_CELLS).all(|id| ALL.iter().any(|claim| claim.id == *id)));
     }
 
     #[test]

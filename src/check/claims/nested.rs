@@ -2,7 +2,7 @@
 //!
 //! The thresholds of a whole block of cells are seen where one octave has all weight, and those of their parents an octave
 //! above. Of a threshold that claims no such join nothing is asked here; of one that does, the claims on cells that know nothing
-//! of each other are not ([`is_about_strangers`](super::is_about_strangers)).
+//! of each other are not ([`not_of_kin`](super::not_of_kin)).
 
 use crate::check::input::block::{Block, cube};
 use crate::check::tolerance::{POWER, SINGLE_LEVEL};

@@ -13,6 +13,9 @@ use crate::check::subject::Nominal;
 use crate::scene::Fragment;
 use crate::stats::seed::uniform01;
 use crate::threshold::footprint::Footprint;
+use crate::threshold::robust::Join;
+use crate::threshold::robust::nested::named;
+use crate::threshold::two_scale::Variant;
 use glam::{DMat3, DVec2, DVec3, dvec2};
 use rand::Rng;
 use rand::rngs::Xoshiro256PlusPlus;
@@ -400,21 +403,31 @@ impl<'a> Sampler<'a> {
 pub(crate) struct DistinctCells {
     /// Whether cells of different octaves with equal indices are one.
     regardless_of_octave: bool,
+    /// Whether a threshold comes from the names of its intervals, and then whether cells begin between whole numbers.
+    named: Option<bool>,
     used: FxHashSet<u64>,
 }
 
 impl DistinctCells {
     /// No cell yet. The hash of the listings does not tell octaves apart.
-    pub fn new(draw: &Draw) -> Self {
-        Self { regardless_of_octave: draw.reach == Reach::Listings, used: FxHashSet::default() }
+    pub fn new(subject: &Subject<'_>, draw: &Draw) -> Self {
+        let has_names = subject.join == Join::Inherit && subject.variant == Variant::Anisotropic;
+        Self {
+            regardless_of_octave: draw.reach == Reach::Listings,
+            named: has_names.then_some(subject.nested_phase),
+            used: FxHashSet::default(),
+        }
     }
 
     /// Claims the cells of a group of footprints that belong together; returns false, and claims none, if an earlier group, or
     /// another of the group, has one of them.
     pub fn claim(&mut self, group: &[Nominal]) -> bool {
-        let mut keys = [0; 4];
-        let mut count = 0;
+        let mut keys = Vec::with_capacity(2 * group.len());
         for nominal in group {
+            if let Some(nested_phase) = self.named {
+                keys.extend(keys_of_names(nominal, nested_phase));
+                continue;
+            }
             for (cell, scale) in
                 [(nominal.coarse_cell, nominal.coarse_scale), (nominal.fine_cell, nominal.fine_scale)]
             {
@@ -423,11 +436,9 @@ impl DistinctCells {
                 if !self.regardless_of_octave {
                     scale.map(f64::to_bits).hash(&mut hasher);
                 }
-                keys[count] = hasher.finish();
-                count += 1;
+                keys.push(hasher.finish());
             }
         }
-        let keys = &keys[..count];
         // A cell of one member may be that of another, as both octaves of one point in the cell around the origin.
         let fresh = !keys.iter().any(|key| self.used.contains(key));
         if fresh {
@@ -435,6 +446,24 @@ impl DistinctCells {
         }
         fresh
     }
+}
+
+/// Keys of the eight cells that a footprint may have by the names of its intervals, coarse or fine along each axis.
+fn keys_of_names(nominal: &Nominal, nested_phase: bool) -> [u64; 8] {
+    let name = |cell: DVec3, scale: [f64; 3], axis: usize| {
+        named(cell[axis] as i32, libm::ilogb(scale[axis]), nested_phase)
+    };
+    let names = [0, 1, 2].map(|axis| {
+        [
+            name(nominal.coarse_cell, nominal.coarse_scale, axis),
+            name(nominal.fine_cell, nominal.fine_scale, axis),
+        ]
+    });
+    [0, 1, 2, 3, 4, 5, 6, 7].map(|corner: usize| {
+        let mut hasher = FxHasher::default();
+        [names[0][corner & 1], names[1][corner >> 1 & 1], names[2][corner >> 2]].hash(&mut hasher);
+        hasher.finish()
+    })
 }
 
 /// Draws up to `n` groups of fragments of a setting that share no cells with each other or with earlier ones; `group` makes a group

@@ -138,7 +138,7 @@ pub(super) fn inherited<R: Real, H: Hash<R>>(hash: &H, index: [R; 3], octave: i3
 /// Returns the interval whose name an interval of an axis has, with its octave: itself if it is the upper one of two, or the first
 /// of its ancestors that is. Index and result are whole numbers in two's complement.
 #[inline(always)]
-pub(in crate::threshold) fn named(index: i32, octave: i32, nested_phase: bool) -> (i32, i32) {
+pub(crate) fn named(index: i32, octave: i32, nested_phase: bool) -> (i32, i32) {
     let origin = origin(octave, nested_phase);
     let number = (index as u32).wrapping_add(origin);
     let kept = (number | 1 << LONGEST_NAME).trailing_zeros();
