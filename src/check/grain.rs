@@ -39,8 +39,10 @@ const OCTAVE: f64 = -6.0;
 /// How many times the one derivative is as long as the other at a grazing angle.
 const STRETCH: f64 = 8.0;
 
-/// Points that are followed while the camera comes an octave closer, and steps on the way.
+/// Points that are followed while the camera comes an octave closer: a share of 1/3 has a standard error of 1 in 100.
 const POINTS: usize = 1 << 14;
+
+/// Steps on the way: a point that changes twice within one is not counted.
 const STEPS: usize = 32;
 
 /// How a surface lies.

@@ -197,6 +197,13 @@ pub struct Nominal {
     pub lerp_factor: f64,
 }
 
+impl Nominal {
+    /// The cell that holds the coarse one, an octave above, where one octave is that of all axes.
+    pub(crate) fn parent(&self, nested_phase: bool) -> DVec3 {
+        parent(self.coarse_cell, libm::ilogb(self.coarse_scale[0]), nested_phase)
+    }
+}
+
 impl fmt::Debug for Subject<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "Subject({} {})", self.name, self.precision)
@@ -655,6 +662,12 @@ impl<'a> Subject<'a> {
             lerp_factor: lerp_factor.to_f64(),
         }
     }
+}
+
+/// The parent of a cell, one octave above the cell's own.
+pub(crate) fn parent(cell: DVec3, octave: i32, nested_phase: bool) -> DVec3 {
+    let begin = if nested_phase && octave & 1 == 0 { 1.0 } else { 0.0 };
+    ((cell + begin) * 0.5).floor()
 }
 
 fn model_threshold(precision: Precision, model: &Model, footprint: &Footprint<f64>) -> f64 {

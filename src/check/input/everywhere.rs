@@ -405,6 +405,8 @@ pub(crate) struct DistinctCells {
     regardless_of_octave: bool,
     /// Whether a threshold comes from the names of its intervals, and then whether cells begin between whole numbers.
     named: Option<bool>,
+    /// The same where the children of a cell know of each other.
+    has_kin: Option<bool>,
     used: FxHashSet<u64>,
 }
 
@@ -415,6 +417,7 @@ impl DistinctCells {
         Self {
             regardless_of_octave: draw.reach == Reach::Listings,
             named: has_names.then_some(subject.nested_phase),
+            has_kin: subject.has_kin().then_some(subject.nested_phase),
             used: FxHashSet::default(),
         }
     }
@@ -428,9 +431,13 @@ impl DistinctCells {
                 keys.extend(keys_of_names(nominal, nested_phase));
                 continue;
             }
-            for (cell, scale) in
-                [(nominal.coarse_cell, nominal.coarse_scale), (nominal.fine_cell, nominal.fine_scale)]
-            {
+            let cells = match self.has_kin {
+                Some(nested_phase) => [(nominal.parent(nested_phase), nominal.coarse_scale); 2],
+                None => {
+                    [(nominal.coarse_cell, nominal.coarse_scale), (nominal.fine_cell, nominal.fine_scale)]
+                }
+            };
+            for (cell, scale) in cells {
                 let mut hasher = FxHasher::default();
                 cell.to_array().map(|index| index as i64).hash(&mut hasher);
                 if !self.regardless_of_octave {

@@ -142,13 +142,19 @@ impl UsedCells {
     /// Claims the cells of a group of fragments or footprints that belong together; returns false, and claims none, if an
     /// earlier group has one of them.
     ///
-    /// Cells of different octaves with equal coordinates count as one, since the paper's hash cannot tell them apart.
+    /// Cells of different octaves with equal coordinates count as one, since the paper's hash cannot tell them apart. Where the
+    /// children of a cell know of each other, its parent stands for them all.
     pub fn claim<F: Copy + Into<Fragment>>(&mut self, subject: &Subject<'_>, group: &[F]) -> bool {
         let cells: Vec<[i64; 3]> = group
             .iter()
             .flat_map(|&fragment| {
                 let nominal = subject.nominal(&fragment.into().footprint);
-                [nominal.coarse_cell, nominal.fine_cell].map(|cell| cell.to_array().map(|c| c as i64))
+                let cells = if subject.has_kin() {
+                    [nominal.parent(subject.nested_phase); 2]
+                } else {
+                    [nominal.coarse_cell, nominal.fine_cell]
+                };
+                cells.map(|cell| cell.to_array().map(|c| c as i64))
             })
             .collect();
         match self {

@@ -5,7 +5,7 @@
 //! parent: by themselves, or by keeping through the octaves between. Not in the paper.
 
 use crate::check::Subject;
-use crate::check::subject::Nominal;
+use crate::check::subject::{Nominal, parent};
 use crate::threshold::robust::Join;
 use crate::threshold::robust::nested::{LEVELS, LONGEST_NAME};
 use crate::threshold::two_scale::Variant;
@@ -39,12 +39,11 @@ pub(crate) fn same_by_kin(subject: &Subject<'_>, [one, other]: [&Nominal; 2]) ->
     if !subject.has_kin() {
         return 0.0;
     }
-    let mut octave = libm::log2(one.coarse_scale[0]) as i64;
+    let mut octave = libm::ilogb(one.coarse_scale[0]);
     let mut cells = [one.coarse_cell, other.coarse_cell];
     let mut reach = reach(one.fraction[0]) * reach(other.fraction[0]);
     for _ in 0..LEVELS {
-        let begin = if subject.nested_phase && octave.rem_euclid(2) == 0 { 1.0 } else { 0.0 };
-        let parents = cells.map(|cell| ((cell + begin) * 0.5).floor());
+        let parents = cells.map(|cell| parent(cell, octave, subject.nested_phase));
         if parents[0] == parents[1] {
             let opposite = (cells[0] - cells[1]).abs() == DVec3::ONE;
             return if opposite { 0.25 * reach } else { 0.0 };
