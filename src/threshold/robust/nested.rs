@@ -50,12 +50,14 @@ fn pair([x, y, z]: [u32; 3]) -> u32 {
 /// A word of a parent, from the numbers of its intervals: its two upper bits say which pair keeps the threshold, the next ones how the
 /// others are ordered.
 ///
-/// Two products mix what it decides, which of four pairs has which share; thresholds come from the hash. The multipliers are
-/// those of lowbias32 (C. Wellons, hash-prospector, 2018). The word repeats after 2^11, 2^11 and 2^10 cells.
+/// It decides which of four pairs has which share; thresholds come from the hash. lowbias32 but for its last step (C. Wellons,
+/// hash-prospector, 2018): without the first one, parallel layers some powers of two apart had related orders. The word repeats after
+/// 2^11, 2^11 and 2^10 cells.
 #[inline(always)]
 fn order_of_pairs([x, y, z]: [u32; 3], octave: i32) -> u32 {
     let packed = (x & 0x7ff) | ((y & 0x7ff) << 11) | (z << 22);
-    let mixed = (packed ^ (octave as u32).rotate_left(16)).wrapping_mul(0x7feb_352d);
+    let folded = packed ^ (packed >> 16) ^ (octave as u32).rotate_left(16);
+    let mixed = folded.wrapping_mul(0x7feb_352d);
     (mixed ^ (mixed >> 15)).wrapping_mul(0x846c_a68b)
 }
 

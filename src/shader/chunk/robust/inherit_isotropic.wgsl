@@ -8,7 +8,7 @@ fn pair(number: vec3<u32>) -> u32 {
 fn order_of_pairs(number: vec3<u32>, octave: i32) -> u32 {
     let packed = (number.x & 0x7ffu) | ((number.y & 0x7ffu) << 11u) | (number.z << 22u);
     let turned = (bitcast<u32>(octave) << 16u) | (bitcast<u32>(octave) >> 16u);
-    let mixed = (packed ^ turned) * 0x7feb352du;
+    let mixed = (packed ^ (packed >> 16u) ^ turned) * 0x7feb352du;
     return (mixed ^ (mixed >> 15u)) * 0x846ca68bu;
 }
 
