@@ -877,6 +877,27 @@ fn a_shader_file_may_tell_its_size_of_noise_and_its_phase() {
     assert_eq!(check(&["--hash-scale", "0"]).status.code(), Some(2));
 }
 
+/// By their indices alone cells of several octaves would meet, and whole layers have one threshold.
+#[test]
+fn a_join_that_needs_the_octave_is_refused_without_it() {
+    for more in [&["--hash", "pcg3d"][..], &["--without", "octave-word"]] {
+        let output = run(&[&["eval", "--join", "inherit"][..], more].concat(), "");
+        assert_fails(&output, "", "--join inherit");
+    }
+    let output = run(&["shader", "--join", "inherit", "--hash", "hoskins"], "");
+    assert_fails(&output, "", "--join inherit");
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("mine.toml");
+    let robust = "robust = { join = \"inherit\", hash = \"pcg3d\" }";
+    let scene = succeed(&["scenes", "noise-scales"], "").replacen("hashed = { hash_scale = 1.0 }", robust, 1);
+    std::fs::write(&file, &scene).unwrap();
+    let output = run(&["explain", file.to_str().unwrap()], "");
+    assert_eq!(output.status.code(), Some(2), "{output:?}");
+    assert!(String::from_utf8_lossy(&output.stderr).contains("reads the octave"), "{output:?}");
+    std::fs::write(&file, scene.replace("pcg3d", "pcg4d")).unwrap();
+    succeed(&["explain", file.to_str().unwrap()], "");
+}
+
 #[test]
 fn help_tells_exit_codes_and_examples() {
     let help = succeed(&["--help"], "");

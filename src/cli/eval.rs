@@ -73,13 +73,12 @@ fn model<R: Real>(args: &EvalArgs) -> Result<Model, Failure> {
     }
     let preset = Robust::new(variant);
     let repairs = args.without.iter().fold(Repairs::ALL, |repairs, &repair| repairs.without(repair));
-    Ok(Model::Robust(Robust {
-        hash: args.hash.unwrap_or(preset.hash),
-        hash_scale,
-        join: args.join.unwrap_or(preset.join),
-        repairs,
-        ..preset
-    }))
+    let (hash, join) = (args.hash.unwrap_or(preset.hash), args.join.unwrap_or(preset.join));
+    let robust = Robust { hash, hash_scale, join, repairs, ..preset };
+    if !robust.tells_octaves_apart() {
+        return Err(Failure::octaves_alike());
+    }
+    Ok(Model::Robust(robust))
 }
 
 fn open(file: &Path) -> Result<(Box<dyn Read>, String), Failure> {

@@ -50,6 +50,13 @@ pub enum Failure {
 }
 
 impl Failure {
+    /// A join that hashes cells of several octaves side by side, without what tells them apart.
+    pub fn octaves_alike() -> Self {
+        let message = "--join inherit hashes cells of several octaves side by side: it needs the repair octave-word and a hash that reads \
+                       the octave, as mm4";
+        Self::Usage(message.to_owned())
+    }
+
     /// Tells whether the reader of the results has gone.
     pub fn is_closed_pipe(&self) -> bool {
         matches!(self, Self::Output(error) if error.kind() == io::ErrorKind::BrokenPipe)

@@ -37,7 +37,11 @@ pub fn run(args: &ShaderTextArgs) -> Result<Ending, Failure> {
     } else {
         let preset = Robust::new(variant);
         let (hash, join) = (args.hash.unwrap_or(preset.hash), args.join.unwrap_or(preset.join));
-        Robust { hash, hash_scale, join, ..preset }.into()
+        let robust = Robust { hash, hash_scale, join, ..preset };
+        if !robust.tells_octaves_apart() {
+            return Err(Failure::octaves_alike());
+        }
+        robust.into()
     };
     let options = ShaderOptions {
         pipeline: model.into(),

@@ -171,8 +171,9 @@ fn unknown(word: &str) -> Failure {
     let likely = likely(word, &known);
     Failure::Usage(format!(
         "unknown subject `{word}`.{likely} Known are paper:isotropic, paper:anisotropic, robust:isotropic, \
-         robust:anisotropic (and the robust ones with a join behind them, as robust:isotropic:inherit), each with gpu: before it too, hash: with the name of a hash behind it, and files of shaders, as \
-         my.glsl, or of programs that hold one, as my.js"
+         robust:anisotropic (the robust ones with a join behind them, too, as robust:isotropic:inherit), each with gpu: before \
+         it too, hash: with the name of a hash behind it, and files of shaders, as my.glsl, or of programs that hold one, as \
+         my.js"
     ))
 }
 

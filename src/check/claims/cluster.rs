@@ -44,7 +44,7 @@ pub const CLUSTER: Claim = Claim {
 fn cluster(subject: &Subject<'_>, draw: &Draw) -> Attempt<Trial> {
     if subject.join.switches() && subject.variant == Variant::Anisotropic {
         // Measured: a correlation of 0.023 in blocks of 8 x 8 cells.
-        let reason = "with a scale an axis the dithered join draws one octave for each interval of an axis: slabs of cells flip \
+        let reason = "with a scale an axis a join that takes one of two octaves draws one octave for each interval of an axis: slabs of cells flip \
                       together, which is its price";
         return Ok(Trial::without(Conclusion::NotApplicable, reason));
     }

@@ -129,7 +129,7 @@ struct Sweep {
 
 fn sweep(subject: &Subject<'_>, draw: &Draw, claim: &str, motion: &Sweep) -> Attempt<Trial> {
     if subject.join.switches() && !motion.monotone {
-        let reason = "the dithered join switches as often as a scale passes the place of its cell; \
+        let reason = "a join that takes one of two octaves switches as often as a scale passes the place of its cell; \
                       continuity.zoom and continuity.tilt, where each passes once, count the switches";
         return Ok(Trial::without(Conclusion::NotApplicable, reason));
     }

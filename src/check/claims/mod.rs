@@ -85,9 +85,7 @@ const AMONG_CELLS: &[&str] = &[
 #[must_use]
 pub fn not_of_kin(subject: &Subject<'_>, id: &str) -> Option<&'static str> {
     if subject.join == Join::Inherit && ACROSS_OCTAVES.contains(&id) {
-        Some(
-            "some cells keep the threshold of the cell that they came from; flips.zoom and its kin ask how many",
-        )
+        Some("some cells keep the threshold of the cell that they came from; the claims flips.* ask how many")
     } else if subject.has_kin() && AMONG_CELLS.contains(&id) {
         Some(
             "children of one cell share [0, 1] among them, so that neighbours know of each other; nested.children, nested.kept \

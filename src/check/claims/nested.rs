@@ -39,7 +39,7 @@ pub const CHILDREN: Claim = Claim {
 pub const KEPT: Claim = Claim {
     id: "nested.kept",
     anchor: "not in the paper (docs/joins.md)",
-    statement: "the pair of children with one threshold has that of its parent, but for one in 64, whose parent has asked farther",
+    statement: "the pair of children with one threshold has that of its parent, but for at most one in 64, whose parent has asked farther",
     expected: Verdict::Consistent,
     promise: Some(Promise::Root(0.02)),
     run: kept,
@@ -80,19 +80,18 @@ impl Parent {
     /// Whether the other pairs have the three thirds, filled alike.
     fn shares_fairly(&self, keeper: usize) -> bool {
         let others = || (0..4).filter(move |&pair| pair != keeper);
-        let mut taken = [false; 3];
-        let near = |a: f64, b: f64| {
-            let apart = (a - b).abs();
-            // The ends of a third are one place here.
-            apart.min(1.0 - apart) <= 3.0 * ROUNDING
-        };
         let (_, fill) = others().next().map_or((0, 0.0), |pair| self.third(pair));
-        others().all(|pair| {
-            let (third, part) = self.third(pair);
+        let is_filled = |pair: usize| {
             let [low, high] = self.pairs[pair];
-            let is_new = third < 3 && !std::mem::replace(&mut taken[third], true);
-            is_new && near(part, fill) && near(3.0 * (high - low).abs(), 0.5)
-        })
+            // From the fill of the first: next to the end of a third, rounding puts a threshold on either side.
+            let above = 3.0 * low - fill;
+            let is_alike = (above - above.round()).abs() <= 3.0 * ROUNDING;
+            let is_half_apart = (3.0 * (high - low).abs() - 0.5).abs() <= 3.0 * ROUNDING;
+            (is_alike && is_half_apart).then_some(above.round() as i64)
+        };
+        let mut thirds: Vec<i64> = others().filter_map(is_filled).collect();
+        thirds.sort_unstable();
+        matches!(thirds[..], [low, middle, high] if middle == low + 1 && high == low + 2)
     }
 }
 

@@ -432,7 +432,10 @@ impl DistinctCells {
                 continue;
             }
             let cells = match self.has_kin {
-                Some(nested_phase) => [(nominal.parent(nested_phase), nominal.coarse_scale); 2],
+                Some(nested_phase) => [
+                    (nominal.parent(nested_phase), nominal.coarse_scale.map(|scale| 0.5 * scale)),
+                    (nominal.coarse_cell, nominal.coarse_scale),
+                ],
                 None => {
                     [(nominal.coarse_cell, nominal.coarse_scale), (nominal.fine_cell, nominal.fine_scale)]
                 }

@@ -143,14 +143,14 @@ impl UsedCells {
     /// earlier group has one of them.
     ///
     /// Cells of different octaves with equal coordinates count as one, since the paper's hash cannot tell them apart. Where the
-    /// children of a cell know of each other, its parent stands for them all.
+    /// children of a cell know of each other, their parents stand for both.
     pub fn claim<F: Copy + Into<Fragment>>(&mut self, subject: &Subject<'_>, group: &[F]) -> bool {
         let cells: Vec<[i64; 3]> = group
             .iter()
             .flat_map(|&fragment| {
                 let nominal = subject.nominal(&fragment.into().footprint);
                 let cells = if subject.has_kin() {
-                    [nominal.parent(subject.nested_phase); 2]
+                    [nominal.parent(subject.nested_phase), nominal.coarse_cell]
                 } else {
                     [nominal.coarse_cell, nominal.fine_cell]
                 };

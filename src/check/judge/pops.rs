@@ -28,8 +28,8 @@ struct Jump {
 }
 
 impl Pops {
-    /// Follows a point along views between which every scale only grows or only shrinks: a continuous join does not jump, the dithered
-    /// one switches once an octave and axis.
+    /// Follows a point along views between which every scale only grows or only shrinks: a continuous join does not jump, one
+    /// that takes one of two octaves switches once an octave and axis.
     pub fn add_path(&mut self, subject: &Subject<'_>, views: &[Fragment], thresholds: &[f64]) {
         match subject.join {
             Join::Dithered | Join::Inherit => self.add_switches(subject, views, thresholds),

@@ -2,7 +2,8 @@
 //!
 //! The children of a parent make four pairs. One keeps the threshold of the parent, which is independent of the hash of the parent; the
 //! others have thirds of [0, 1], which that hash fills. So two thresholds have something in common where both come from the children of one
-//! parent: by themselves, or by keeping through the octaves between. Not in the paper.
+//! parent: by themselves, or by keeping through the octaves between. What all children of a cell have in common that keeps through as many
+//! octaves as are asked for, one in 256, is neglected. Not in the paper.
 
 use crate::check::Subject;
 use crate::check::subject::{Nominal, parent};
@@ -23,7 +24,8 @@ pub fn share_kept(join: Join, variant: Variant, octaves: f64) -> f64 {
     match (join, variant) {
         (_, _) if octaves == 0.0 => 1.0,
         (Join::Interpolate | Join::Copula | Join::Dithered, _) => 0.0,
-        (Join::Inherit, Variant::Anisotropic) => of_each(0.5, LONGEST_NAME),
+        // What has kept a name as long as can be has it still.
+        (Join::Inherit, Variant::Anisotropic) => of_each(0.5, LONGEST_NAME + 1),
         (Join::Inherit, _) => of_each(0.25, LEVELS),
     }
 }

@@ -58,7 +58,14 @@ impl Effect for RobustHash {
     }
 
     fn check(&self, _: &Plan) -> Result<(), Diagnostic> {
-        two_scales(self.variant, "robust")
+        two_scales(self.variant, "robust")?;
+        let robust =
+            Robust { hash: self.hash, join: self.join.unwrap_or(Join::Interpolate), ..Robust::default() };
+        if robust.tells_octaves_apart() {
+            return Ok(());
+        }
+        let needs = "`robust.join` = \"inherit\" needs a hash that reads the octave, as mm4";
+        Err(Diagnostic::new("hash", needs))
     }
 
     fn plan(&self, plan: &mut Plan) {

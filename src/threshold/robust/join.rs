@@ -28,14 +28,16 @@ pub enum Join {
     /// axis it mixes the eight corners of the box of octaves by trilinear weights and is continuous in each of them.
     /// Not in the paper, which tried eight corners with a CDF of their own and set them aside (§6.2).
     Copula,
-    /// One of the two hashes, chosen by a third hash of the coarse cell: no mixture and no CDF, and as few changes of
-    /// visibility under zoom as any join can have. Not in the paper.
+    /// One of the two hashes, chosen by a third hash of the coarse cell: no mixture and no CDF, and one change in an octave of
+    /// zoom. Not in the paper.
     Dithered,
     /// [`Join::Dithered`] with cells that inherit: one in four children keeps the threshold of its parent, with one scale an
     /// axis one in two along each axis, so that a quarter or half of what the dithered join changes under zoom stays
-    /// ([`nested`]). With one scale the other children share the rest of [0, 1], which makes less grain. Not in the paper.
+    /// ([`nested`]). With one scale the other children share the rest of [0, 1], which makes less grain. The hash has to read the octave
+    /// ([`Robust::tells_octaves_apart`]). Not in the paper.
     ///
     /// [`nested`]: crate::threshold::robust::nested
+    /// [`Robust::tells_octaves_apart`]: crate::threshold::robust::Robust::tells_octaves_apart
     Inherit,
 }
 

@@ -104,6 +104,15 @@ impl Robust {
     }
 }
 
+impl Robust {
+    /// Whether the hash tells cells of different octaves apart where the join needs it: [`Join::Inherit`] hashes cells of several octaves
+    /// side by side, and by their indices alone whole layers would have one threshold.
+    #[must_use]
+    pub fn tells_octaves_apart(&self) -> bool {
+        self.join != Join::Inherit || self.hash.reads_octave() && self.repairs.contains(Repair::OctaveWord)
+    }
+}
+
 impl Default for Robust {
     /// With one scale for all axes.
     fn default() -> Self {

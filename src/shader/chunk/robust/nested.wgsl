@@ -1,8 +1,8 @@
 // Where the intervals of an octave begin to be counted so that each has the intervals 2 n and 2 n + 1 of the next octave as its
 // children, in two's complement: nested cells begin at alternating thirds, whose digits alternate.
 fn origin(octave: vec3<i32>) -> vec3<u32> {
-    let is_even = (octave & vec3<i32>(1)) == vec3<i32>(0);
-    return select(vec3<u32>(0xaaaaaaaau), vec3<u32>(0x55555555u), is_even);
+    // Twice as much where the octave is odd; some languages choose between floats only.
+    return vec3<u32>(0x55555555u) << (bitcast<vec3<u32>>(octave) & vec3<u32>(1u));
 }
 
 // The index of an ancestor of an interval, so many octaves above.
