@@ -166,8 +166,12 @@ fn unknown(word: &str) -> Failure {
     if let Some(instead) = own::instead_of(Path::new(file)) {
         return Failure::Usage(format!("{file}: {instead}"));
     }
-    let known =
-        ["paper", "paper:isotropic", "paper:anisotropic", "robust", "robust:isotropic", "robust:anisotropic"];
+    let mut known: Vec<String> =
+        ["paper", "paper:isotropic", "paper:anisotropic", "robust"].map(str::to_owned).into();
+    for variant in ["robust:isotropic", "robust:anisotropic"] {
+        known.push(variant.to_owned());
+        known.extend(Join::ALL.map(|join| format!("{variant}:{join}")));
+    }
     let likely = likely(word, &known);
     Failure::Usage(format!(
         "unknown subject `{word}`.{likely} Known are paper:isotropic, paper:anisotropic, robust:isotropic, \

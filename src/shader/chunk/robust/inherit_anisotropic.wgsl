@@ -2,9 +2,9 @@
 // 16 octaves at most.
 fn named(index: vec3<i32>, octave: vec3<i32>) -> Cell {
     let begin = origin(octave);
-    let number = (bitcast<vec3<u32>>(index) + begin) | vec3<u32>(0x10000u);
+    let counted = (bitcast<vec3<u32>>(index) + begin) | vec3<u32>(0x10000u);
     // The exponent of the lowest bit that is set: some languages do not count trailing zeros.
-    let lowest = number & (~number + vec3<u32>(1u));
+    let lowest = counted & (~counted + vec3<u32>(1u));
     let kept = (bitcast<vec3<u32>>(vec3<f32>(lowest)) >> vec3<u32>(23u)) - vec3<u32>(127u);
     return Cell(vec3<f32>(ancestor(index, begin, kept)), octave_word(octave - bitcast<vec3<i32>>(kept)));
 }

@@ -1,12 +1,12 @@
 // The pair of a cell whose intervals have these numbers, 0 to 3: two opposite corners of a parent have the same.
-fn pair(number: vec3<u32>) -> u32 {
-    return ((number.x ^ number.z) & 1u) | (((number.y ^ number.z) & 1u) << 1u);
+fn pair(counted: vec3<u32>) -> u32 {
+    return ((counted.x ^ counted.z) & 1u) | (((counted.y ^ counted.z) & 1u) << 1u);
 }
 
 // A word of a parent, from the numbers of its intervals: the two upper bits say which pair keeps its threshold, the next ones how
 // the others are ordered.
-fn order_of_pairs(number: vec3<u32>, octave: i32) -> u32 {
-    let packed = (number.x & 0x7ffu) | ((number.y & 0x7ffu) << 11u) | (number.z << 22u);
+fn order_of_pairs(counted: vec3<u32>, octave: i32) -> u32 {
+    let packed = (counted.x & 0x7ffu) | ((counted.y & 0x7ffu) << 11u) | (counted.z << 22u);
     let turned = (bitcast<u32>(octave) << 16u) | (bitcast<u32>(octave) >> 16u);
     let mixed = (packed ^ (packed >> 16u) ^ turned) * 0x7feb352du;
     return (mixed ^ (mixed >> 15u)) * 0x846ca68bu;
@@ -34,17 +34,17 @@ fn of_share(share: u32, upper: bool, hash: f32) -> f32 {
 // The threshold of a cell of one octave, from the first parent that does not keep that of its own parent; four are asked at most.
 fn inherited(cell: vec3<i32>, octave: i32) -> f32 {
     let begin = origin(vec3<i32>(octave));
-    var number = bitcast<vec3<u32>>(cell) + begin;
+    var counted = bitcast<vec3<u32>>(cell) + begin;
     var climbed = 0u;
-    var order = order_of_pairs(number >> vec3<u32>(1u), octave - 1);
-    while climbed < 3u && keeps(order, pair(number)) {
+    var order = order_of_pairs(counted >> vec3<u32>(1u), octave - 1);
+    while climbed < 3u && keeps(order, pair(counted)) {
         climbed += 1u;
-        number = number >> vec3<u32>(1u);
-        order = order_of_pairs(number >> vec3<u32>(1u), octave - 1 - i32(climbed));
+        counted = counted >> vec3<u32>(1u);
+        order = order_of_pairs(counted >> vec3<u32>(1u), octave - 1 - i32(climbed));
     }
     let index = vec3<f32>(ancestor(cell, begin, vec3<u32>(climbed + 1u)));
     let hash = hash_cell(Cell(index, bitcast<u32>(octave - 1 - i32(climbed))));
-    return of_share(share_of_pair(order, pair(number)), (number.z & 1u) == 1u, hash);
+    return of_share(share_of_pair(order, pair(counted)), (counted.z & 1u) == 1u, hash);
 }
 
 // The threshold of the cell of one of two octaves, which its coarse cell chooses. Not in the paper.
