@@ -148,7 +148,7 @@ fn main() -> std::io::Result<()> {
         return bless(&which);
     }
     let stride = budget().pick(None, Some(59), Some(1));
-    let recognised = budget().pick(64, 64, 1);
+    let recognised = budget().pick(32, 32, 1);
     let mut trials: Vec<Trial> = specimen::ALL
         .iter()
         .enumerate()

@@ -6,9 +6,9 @@ fn pair(counted: vec3<u32>) -> u32 {
 // A word of a parent, from the numbers of its intervals: the two upper bits say which pair keeps its threshold, the next ones how
 // the others are ordered.
 fn order_of_pairs(counted: vec3<u32>, octave: i32) -> u32 {
-    let packed = (counted.x & 0x7ffu) | ((counted.y & 0x7ffu) << 11u) | (counted.z << 22u);
+    let combined = (counted.x & 0x7ffu) | ((counted.y & 0x7ffu) << 11u) | (counted.z << 22u);
     let turned = (bitcast<u32>(octave) << 16u) | (bitcast<u32>(octave) >> 16u);
-    let mixed = (packed ^ (packed >> 16u) ^ turned) * 0x7feb352du;
+    let mixed = (combined ^ (combined >> 16u) ^ turned) * 0x7feb352du;
     return (mixed ^ (mixed >> 15u)) * 0x846ca68bu;
 }
 
