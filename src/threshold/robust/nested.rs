@@ -1,14 +1,14 @@
 //! Cells whose thresholds depend on those of the cells around them in the octave before: the joins that are nested. Not in the
 //! paper, whose octaves are independent.
 //!
-//! With [`Repair::NestedPhase`](super::Repair::NestedPhase) a cell of one octave is the union of eight of the next one, its
+//! With [`Repair::NestedPhase`] a cell of one octave is the union of eight of the next one, its
 //! *children*. If a child keeps the threshold of its *parent*, nothing changes there while the camera comes an octave closer.
 //!
-//! * One scale ([`inherited`]): the children make four *pairs* of opposite corners, and each slab of the parent along an axis
+//! * One scale: the children make four *pairs* of opposite corners, and each slab of the parent along an axis
 //!   has one child of each pair. One pair keeps the threshold of the parent. The other three share the rest: each is in a third of
 //!   [0, 1] of its own, so that the number of visible ones of four varies as little as can be, and no plane along two axes shows more of them
 //!   than another.
-//! * One scale an axis ([`named`]): along each axis one of two children keeps the name of its parent, and a cell is hashed by
+//! * One scale an axis: along each axis one of two children keeps the name of its parent, and a cell is hashed by
 //!   the names of its three intervals. No two cells beside each other have one name, so that thresholds are as independent as
 //!   the hash makes them.
 
