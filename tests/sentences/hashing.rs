@@ -302,22 +302,16 @@ fn three_dimensions() -> Measured {
     judge(64 * 65_536, single.0 <= 5, double.0 <= 5, seen)
 }
 
-/// Made for the index of a table, which has the lower bits of a hash; a threshold has the upper ones.
-const FOR_TABLES: [HashKind; 2] = [HashKind::Superfast, HashKind::Teschner];
-
 fn others() -> Measured {
     let biases: Vec<(HashKind, f64)> = HashKind::ALL.map(|hash| (hash, planes::<f32>(hash).1)).to_vec();
     let text: Vec<String> = biases.iter().map(|(hash, bias)| format!("{hash} {bias:.4}")).collect();
     let alike = |of_the_paper: bool| {
         biases
             .iter()
-            .filter(|(h, _)| !FOR_TABLES.contains(h) && (of_the_paper || !h.name().starts_with("sine")))
+            .filter(|(h, _)| of_the_paper || !h.name().starts_with("sine"))
             .all(|(_, bias)| *bias < 0.003)
     };
-    let seen = format!(
-        "bias of planes of constant z at 1/2, rms (chance: 0.0020): {}; superfast and teschner, made for the index of a table, are not judged",
-        text.join(", ")
-    );
+    let seen = format!("bias of planes of constant z at 1/2, rms (chance: 0.0020): {}", text.join(", "));
     judge(HashKind::ALL.len() as u64 * 64 * 65_536, alike(true), alike(false), seen)
 }
 
