@@ -85,6 +85,7 @@ fn options() -> Vec<ShaderOptions> {
     let mut written = Vec::new();
     for hash in HashKind::ALL {
         written.push(Pipeline::listing(Variant::Isotropic).with_hash(hash));
+        written.push(Pipeline::robust(Variant::Isotropic).with_hash(hash));
     }
     written.extend(
         [
