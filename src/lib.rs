@@ -5,11 +5,11 @@
 //! verdict on a threshold of your own.
 //!
 //! ```
-//! use hashed_alpha::{Footprint, Robust, Variant};
+//! use hashed_alpha::{Footprint, Robust};
 //!
 //! // A position in object units, and its change to the next pixel along screen x and y.
 //! let footprint = Footprint::<f32>::new([0.31, -1.72, 2.43], [0.0121, 0.0003, -0.0007], [0.0002, 0.0094, 0.0033]);
-//! let threshold = Robust::new(Variant::Isotropic).threshold(&footprint)?;
+//! let threshold = Robust::default().threshold(&footprint)?;
 //! let is_kept = 0.7 >= threshold;
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

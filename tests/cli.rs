@@ -192,7 +192,8 @@ fn robust_thresholds_agree_with_a_separate_program_for_every_join() {
         let [variant, join, precision] = options.split(' ').collect::<Vec<_>>()[..] else {
             panic!("{options}")
         };
-        let arguments = ["eval", "--variant", variant, "--join", join, "--precision", precision];
+        let arguments =
+            ["eval", "--hash", "mm4", "--variant", variant, "--join", join, "--precision", precision];
         let results = succeed(&arguments, rows.join("\n"));
         assert_eq!(results.lines().count(), 6, "{results}");
         for (found, expected) in results.lines().skip(1).zip(expected.split(' ')) {
@@ -713,8 +714,18 @@ fn spread(position: vec3<f32>, dpdx: vec3<f32>, dpdy: vec3<f32>, frame: u32) -> 
     let check = |stratum: &str, frames: &str| {
         std::fs::write(&file, library.clone() + &spread.replace("STRATUM", stratum)).unwrap();
         let typed = format!("{}#spread", file.display());
-        let options =
-            ["--on", "cpu", "--nested-phase", "--only", "frames", "--budget", "quick", "--no-report"];
+        let options = [
+            "--on",
+            "cpu",
+            "--nested-phase",
+            "--join",
+            "inherit",
+            "--only",
+            "frames",
+            "--budget",
+            "quick",
+            "--no-report",
+        ];
         let output = run(&[&["check", &typed, "--frames", frames][..], &options].concat(), "");
         let results = String::from_utf8(output.stdout).unwrap();
         let rejected: Vec<_> = results
@@ -863,7 +874,7 @@ fn a_shader_file_may_tell_its_size_of_noise_and_its_phase() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("mine.wgsl");
     let file = file.to_str().unwrap();
-    succeed(&["shader", "--hash-scale", "0.25", "--out", file], "");
+    succeed(&["shader", "--join", "interpolate", "--hash-scale", "0.25", "--out", file], "");
     let options =
         ["--on", "cpu", "--only", "exact", "--only", "noise_scale", "--budget", "quick", "--no-report"];
     let check = |more: &[&str]| run(&[&["check", file], &options[..], more].concat(), "");
@@ -871,6 +882,8 @@ fn a_shader_file_may_tell_its_size_of_noise_and_its_phase() {
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stdout));
     let output = check(&["--nested-phase"]);
     assert_eq!(output.status.code(), Some(1));
+    // The first lines say all of it, where nothing is stated.
+    assert!(check(&[]).status.success());
     let output = check(&["--hash-scale", "0.25"]);
     let said = String::from_utf8(output.stdout).unwrap().split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(said.contains("that is sound where it is declared: say --nested-phase"), "{said}");
@@ -1005,4 +1018,43 @@ fn cost_writes_the_time_of_a_frame_into_a_page() {
     // Four takes at five sizes below the headings, and below a rule in the page.
     assert_eq!([table.lines().count(), written.lines().count()], [21, 26], "{table}{written}");
     assert!(folder.path().join("cost-drawing.csv").exists());
+}
+
+#[test]
+fn the_recommended_threshold_is_a_subject_in_two_presets() {
+    let check = |subject: &str| {
+        succeed(&["check", subject, "--only", "range.degenerate", "--budget", "quick", "--no-report"], "")
+    };
+    let both = check("recommended");
+    assert!(both.contains("recommended:steady") && both.contains("recommended:smooth"), "{both}");
+    let steady = check("recommended:steady");
+    assert!(!steady.contains("recommended:smooth"), "{steady}");
+    let output = run(&["check", "recommended:stedy"], "");
+    assert_fails(&output, "", "unknown subject `recommended:stedy`. Did you mean `recommended:steady`?");
+}
+
+#[test]
+fn a_hash_that_cannot_tell_octaves_apart_is_joined_as_in_the_paper() {
+    let output = run(&["eval", "--hash", "pcg3d"], row("a"));
+    assert!(String::from_utf8(output.stderr).unwrap().contains("joined by interpolate, as in the paper"));
+    let stated = succeed(&["eval", "--hash", "pcg3d", "--join", "interpolate"], row("a"));
+    assert_eq!(String::from_utf8(output.stdout).unwrap(), stated);
+}
+
+#[test]
+fn hashes_are_listed_and_measured() {
+    let list = succeed(&["hashes"], "");
+    assert_eq!(list.lines().count(), 25, "{list}");
+    let one = succeed(&["hashes", "lowbias-linear"], "");
+    assert!(one.contains("1774"), "{one}");
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().to_str().unwrap();
+    let measure = ["hashes", "weyl", "--measure", "--doublings", "0", "--quick", "--out", out];
+    let table = succeed(&measure, "");
+    assert!(table.contains("weyl") && table.lines().count() == 2, "{table}");
+    let lines = std::fs::read_to_string(folder.path().join("hashes.jsonl")).unwrap();
+    assert!(lines.starts_with("{\"hash\":\"weyl\",\"doublings\":0,"), "{lines}");
+    assert!(folder.path().join("hashes.svg").is_file());
+    let refused = run(&["hashes", "--measure", "--page", "no-such-page.md", "--out", out], "");
+    assert_fails(&refused, "", "cannot read no-such-page.md");
 }

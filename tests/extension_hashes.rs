@@ -5,12 +5,13 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-/// Hashes that parts of the crate use for their own ends: those have more files. The paper's own two, the default, and the one
-/// that makes the words of a fragment.
+/// Hashes that parts of the crate use for their own ends: those have more files. The paper's own two, the one that devices
+/// are compared with, and the one that makes the words of a fragment.
 const USED_ELSEWHERE: [HashKind; 4] = [HashKind::Sine, HashKind::SineChi2, HashKind::Mm4, HashKind::Pcg4d];
 
 /// Files that may name another hash, each with the reason.
-const MORE: [(HashKind, &str, &str); 3] = [
+const MORE: [(HashKind, &str, &str); 4] = [
+    (HashKind::LowbiasLinear, "threshold/robust/mod.rs", "it is the default"),
     (HashKind::Pcg3d, "cost/stages.rs", "the price of one cell after the other, for a hash of three words"),
     (
         HashKind::PcgNested,

@@ -4,7 +4,7 @@
 use hashed_alpha::threshold::footprint::Footprint;
 use hashed_alpha::threshold::real::log2_f32;
 
-/// Returns the threshold of [`Robust::default`](hashed_alpha::threshold::robust::Robust), bit for bit, for footprints of everyday
+/// Returns the threshold of [`Robust::new`](hashed_alpha::threshold::robust::Robust) with one scale, bit for bit, for footprints of everyday
 /// size: squares of derivatives neither over- nor underflow, and cells have between 2^-100 and 2^100 units.
 pub fn robust(footprint: &Footprint<f32>) -> f32 {
     let position = footprint.position.to_array();
@@ -26,7 +26,7 @@ pub fn robust(footprint: &Footprint<f32>) -> f32 {
     uniform.clamp(1.0 / 16_777_216.0, 1.0)
 }
 
-/// MurmurHash3 of the cell of a position in an octave.
+/// `lowbias32` of the weighted cell of a position in an octave.
 fn value(position: [f32; 3], octave: i32) -> f32 {
     let cells = f32::from_bits(((octave + 127) as u32) << 23);
     let edge = if octave & 1 == 0 { 2.0 / 3.0 } else { 1.0 / 3.0 };
@@ -36,14 +36,13 @@ fn value(position: [f32; 3], octave: i32) -> f32 {
         let whole = if cut as f32 > scaled { cut - 1 } else { cut };
         (whole + i32::from(scaled - whole as f32 >= edge)) as u32
     };
-    let mut h = 0_u32;
-    for word in [index(position[0]), index(position[1]), index(position[2]), octave as u32] {
-        h ^= word.wrapping_mul(0xcc9e_2d51).rotate_left(15).wrapping_mul(0x1b87_3593);
-        h = h.rotate_left(13).wrapping_mul(5).wrapping_add(0xe654_6b64);
-    }
-    h ^= 16;
-    h = (h ^ (h >> 16)).wrapping_mul(0x85eb_ca6b);
-    h = (h ^ (h >> 13)).wrapping_mul(0xc2b2_ae35);
+    let mut h = index(position[0])
+        .wrapping_mul(0xc71f_15df)
+        .wrapping_add(index(position[1]).wrapping_mul(0xd288_1b55))
+        .wrapping_add(index(position[2]).wrapping_mul(0x6290_e857))
+        .wrapping_add((octave as u32).wrapping_mul(0x6a46_fe4f));
+    h = (h ^ (h >> 16)).wrapping_mul(0x7feb_352d);
+    h = (h ^ (h >> 15)).wrapping_mul(0x846c_a68b);
     h ^= h >> 16;
     (2 * (h >> 9) + 1) as f32 * (1.0 / 16_777_216.0)
 }

@@ -8,7 +8,7 @@ use crate::threshold::hash::{Hash, HashKind};
 use crate::threshold::hashed::HashedAlpha;
 use crate::threshold::real::{Real, power_of_two};
 use crate::threshold::robust::scales::{self, Scales};
-use crate::threshold::robust::{Join, Repair, Repairs, Robust};
+use crate::threshold::robust::{Join, Preset, Repair, Repairs, Robust};
 use crate::threshold::stage::stratify::{alternating, stratified};
 use crate::threshold::two_scale::Variant;
 use core::fmt;
@@ -536,6 +536,17 @@ impl<'a> Subject<'a> {
         Self::both_variants("robust", |name, precision, variant| {
             Self::of_model(name, precision, Robust::new(variant))
         })
+    }
+
+    /// The recommended threshold, in both presets and precisions: `recommended:steady` and `recommended:smooth`.
+    #[must_use]
+    pub fn recommended() -> Vec<Self> {
+        let of = |preset: Preset| {
+            Precision::ALL.map(|precision| {
+                Self::of_model(format!("recommended:{preset}"), precision, Robust::recommended(preset))
+            })
+        };
+        Preset::ALL.into_iter().flat_map(of).collect()
     }
 
     /// Whether cells of one octave know of each other, as the children of one parent do.

@@ -5,6 +5,7 @@ use super::args::EvalArgs;
 use super::failure::Failure;
 use super::output;
 use super::rows::{Rows, write_fields};
+use super::shader::robust_of;
 use hashed_alpha::check::subject::Precision;
 use hashed_alpha::threshold::cdf::CdfForm;
 use hashed_alpha::threshold::footprint::Footprint;
@@ -71,14 +72,8 @@ fn model<R: Real>(args: &EvalArgs) -> Result<Model, Failure> {
         let hash = args.hash.unwrap_or(HashKind::Sine);
         return Ok(Model::Listing(HashedAlpha { variant, hash, hash_scale, form }));
     }
-    let preset = Robust::new(variant);
     let repairs = args.without.iter().fold(Repairs::ALL, |repairs, &repair| repairs.without(repair));
-    let (hash, join) = (args.hash.unwrap_or(preset.hash), args.join.unwrap_or(preset.join));
-    let robust = Robust { hash, hash_scale, join, repairs, ..preset };
-    if !robust.tells_octaves_apart() {
-        return Err(Failure::octaves_alike());
-    }
-    Ok(Model::Robust(robust))
+    Ok(Model::Robust(Robust { hash_scale, ..robust_of(variant, args.hash, args.join, repairs)? }))
 }
 
 fn open(file: &Path) -> Result<(Box<dyn Read>, String), Failure> {

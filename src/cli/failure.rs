@@ -5,6 +5,7 @@ use hashed_alpha::render::scene_file::read::FileError;
 use hashed_alpha::report::directory::ReportError;
 use hashed_alpha::report::growth::StateError;
 use hashed_alpha::shader::own::ShaderError;
+use hashed_alpha::threshold::robust::Robust;
 use std::error::Error;
 use std::io;
 
@@ -52,9 +53,10 @@ pub enum Failure {
 impl Failure {
     /// A join that hashes cells of several octaves side by side, without what tells them apart.
     pub fn octaves_alike() -> Self {
-        let message = "--join inherit hashes cells of several octaves side by side: it needs the repair octave-word and a hash that reads \
-                       the octave, as mm4";
-        Self::Usage(message.to_owned())
+        let hash = Robust::HASH;
+        Self::Usage(format!(
+            "--join inherit hashes cells of several octaves side by side: it needs the repair octave-word and a hash that reads the octave, as {hash}"
+        ))
     }
 
     /// Tells whether the reader of the results has gone.

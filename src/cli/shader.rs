@@ -10,9 +10,36 @@ use hashed_alpha::threshold::cdf::CdfForm;
 use hashed_alpha::threshold::hash::HashKind;
 use hashed_alpha::threshold::hashed::HashedAlpha;
 use hashed_alpha::threshold::model::Model;
-use hashed_alpha::threshold::robust::{Join, Robust};
+use hashed_alpha::threshold::robust::{Join, Preset, Repairs, Robust};
 use hashed_alpha::threshold::two_scale::Variant;
 use std::io::{IsTerminal, Write};
+
+/// The recommended threshold of a variant, but for what is stated; a hash that cannot tell octaves apart is joined as in the paper
+/// unless another join is stated.
+pub fn robust_of(
+    variant: Variant,
+    hash: Option<HashKind>,
+    join: Option<Join>,
+    repairs: Repairs,
+) -> Result<Robust, Failure> {
+    let preset = Robust::recommended(Preset::of(variant));
+    let asked = Robust {
+        variant,
+        hash: hash.unwrap_or(preset.hash),
+        join: join.unwrap_or(preset.join),
+        repairs,
+        ..preset
+    };
+    match (asked.tells_octaves_apart(), join) {
+        (true, _) => Ok(asked),
+        (false, None) => {
+            let why = "cells of different octaves are not told apart, which `inherit` needs";
+            output::remark("note", format_args!("joined by interpolate, as in the paper: {why}"));
+            Ok(Robust { join: Join::Interpolate, ..asked })
+        }
+        (false, Some(_)) => Err(Failure::octaves_alike()),
+    }
+}
 
 /// Writes the text to stdout or a file.
 pub fn run(args: &ShaderTextArgs) -> Result<Ending, Failure> {
@@ -35,13 +62,7 @@ pub fn run(args: &ShaderTextArgs) -> Result<Ending, Failure> {
         let form = if args.literal { CdfForm::Literal } else { CdfForm::Stable };
         HashedAlpha { variant, hash: args.hash.unwrap_or(HashKind::Sine), hash_scale, form }.into()
     } else {
-        let preset = Robust::new(variant);
-        let (hash, join) = (args.hash.unwrap_or(preset.hash), args.join.unwrap_or(preset.join));
-        let robust = Robust { hash, hash_scale, join, ..preset };
-        if !robust.tells_octaves_apart() {
-            return Err(Failure::octaves_alike());
-        }
-        robust.into()
+        Robust { hash_scale, ..robust_of(variant, args.hash, args.join, Repairs::ALL)? }.into()
     };
     let options = ShaderOptions {
         pipeline: model.into(),

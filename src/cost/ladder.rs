@@ -152,8 +152,8 @@ impl Judge {
                 add(self.batch(LITERAL, Batch { model, tier, isa: best }, single));
             }
         }
-        let mm4 = listing(Variant::Isotropic, HashKind::Mm4);
-        add(self.scalar((LITERAL, exact.name()), mm4, single, move |f| mm4.threshold(f)));
+        let integer = listing(Variant::Isotropic, Robust::HASH);
+        add(self.scalar((LITERAL, exact.name()), integer, single, move |f| integer.threshold(f)));
         for hash in HashKind::ALL {
             let model = Robust { hash, ..Robust::new(Variant::Isotropic) }.into();
             for tier in [Tier::Fast, exact] {
@@ -224,7 +224,7 @@ fn listing(variant: Variant, hash: HashKind) -> Model {
 #[must_use]
 pub fn statistical_axis() -> [(&'static str, Model); 7] {
     let hashed =
-        |variant| HashedAlpha { variant, hash: HashKind::Mm4, hash_scale: 1.0, form: CdfForm::Stable };
+        |variant| HashedAlpha { variant, hash: Robust::HASH, hash_scale: 1.0, form: CdfForm::Stable };
     let robust = |join| Robust { join, ..Robust::new(Variant::Isotropic) }.into();
     [
         ("one scale", hashed(Variant::Single).into()),

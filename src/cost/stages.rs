@@ -159,7 +159,7 @@ pub(super) fn stages<'a>(inputs: &'a StageInputs) -> Vec<Untimed<'a>> {
 }
 
 /// A hash of cells one after the other.
-fn one_by_one<'a>(
+pub(super) fn one_by_one<'a>(
     inputs: &'a StageInputs,
     kind: HashKind,
     tier: &'static str,
@@ -172,7 +172,7 @@ fn one_by_one<'a>(
     })
 }
 
-fn hash<'a>(
+pub(super) fn hash<'a>(
     inputs: &'a StageInputs,
     kind: HashKind,
     tier: &'static str,

@@ -242,6 +242,9 @@ fn header(options: &ShaderOptions, language: Language) -> String {
     lines.into_iter().map(|line| format!("// {line}\n")).collect()
 }
 
+/// The line of an exported file that says how it is tried, up to the options.
+pub const VERIFY: &str = "Verify it: hashed-alpha check FILE";
+
 /// How the exported file is put on trial; nothing where more follows the threshold.
 fn on_trial(options: &ShaderOptions) -> Option<String> {
     let Pipeline {
@@ -268,7 +271,7 @@ fn on_trial(options: &ShaderOptions) -> Option<String> {
     if options.hash_scale == HashScale::Written && hash_scale as f32 != 1.0 {
         asked += &format!(" --hash-scale {}", hash_scale as f32);
     }
-    Some(format!("Verify it: hashed-alpha check FILE{asked}"))
+    Some(format!("{VERIFY}{asked}"))
 }
 
 fn call(options: &ShaderOptions) -> String {
@@ -365,7 +368,9 @@ mod tests {
                 }
             };
             assert!(
-                text.contains("Listing 2 with every repair (not in the paper), join copula, hash mm4"),
+                text.contains(
+                    "Listing 2 with every repair (not in the paper), join copula, hash lowbias-linear"
+                ),
                 "{text}"
             );
             assert!(text.contains("below threshold(position, dpdx, dpdy)."), "{text}");

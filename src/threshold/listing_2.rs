@@ -7,7 +7,7 @@
 use super::footprint::Footprint;
 use super::hash::sine::hash_3d;
 use super::real::Real;
-use super::two_scale::length_of as length;
+use super::real::length_of as length;
 
 /// Returns the anisotropic hashed alpha threshold of a footprint, in [1e-6, 1] or NaN. `g_hash_scale` is the size of the noise
 /// in pixels, by default 1. Listing 2.

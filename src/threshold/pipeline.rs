@@ -98,9 +98,9 @@ from_source! {
 }
 
 impl Default for Pipeline {
-    /// The robust threshold with one scale for all axes.
+    /// The recommended threshold, [`Robust::default`].
     fn default() -> Self {
-        Self::robust(Variant::Isotropic)
+        Robust::default().into()
     }
 }
 

@@ -494,6 +494,18 @@ fn multiply_add<const FUSED: bool>(a: f64, b: f64, c: f64) -> f64 {
     if FUSED { a.mul_add(b, c) } else { a * b + c }
 }
 
+/// Returns the Euclidean length, summed from left to right (GLSL's `length`).
+#[inline(always)]
+pub(crate) fn length_of<R: Real>(v: [R; 3]) -> R {
+    square_of(v).sqrt()
+}
+
+/// Returns the square of the Euclidean length, summed from left to right.
+#[inline(always)]
+pub(crate) fn square_of<R: Real>([x, y, z]: [R; 3]) -> R {
+    x * x + y * y + z * z
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

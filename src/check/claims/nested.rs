@@ -10,6 +10,7 @@ use crate::check::{Attempt, Claim, Conclusion, Draw, Evidence, Promise, Subject,
 use crate::stats::chi_square::{self, ChiSquare};
 use crate::stats::histogram::bin_of;
 use crate::stats::{binomial, power};
+use crate::threshold::robust::Join;
 use crate::threshold::robust::nested::LEVELS;
 use glam::DVec3;
 
@@ -105,7 +106,11 @@ struct Family {
 /// Sees blocks of cells and of their parents; nothing where the subject claims no such cells.
 fn families(subject: &Subject<'_>, draw: &Draw, claim: &str) -> Attempt<Vec<Family>> {
     if !subject.has_kin() {
-        let reason = "no cell of it inherits: the octaves of its join are independent";
+        let reason = if subject.join == Join::Inherit {
+            "its cells inherit along each axis alone: none has a parent along all three"
+        } else {
+            "no cell of it inherits: the octaves of its join are independent"
+        };
         return Err(Box::new(Trial::without(Conclusion::NotApplicable, reason)));
     }
     let mut rng = draw.rng(claim);

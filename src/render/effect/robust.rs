@@ -64,7 +64,8 @@ impl Effect for RobustHash {
         if robust.tells_octaves_apart() {
             return Ok(());
         }
-        let needs = "`robust.join` = \"inherit\" needs a hash that reads the octave, as mm4";
+        let needs =
+            format!("`robust.join` = \"inherit\" needs a hash that reads the octave, as {}", Robust::HASH);
         Err(Diagnostic::new("hash", needs))
     }
 

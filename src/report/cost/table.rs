@@ -11,7 +11,7 @@ use crate::cost::techniques::{FramePrice, TechniquePrice};
 use crate::threshold::batch::{Isa, Tier};
 use crate::threshold::hash::HashKind;
 use crate::threshold::real::Real;
-use crate::threshold::robust::Join;
+use crate::threshold::robust::{Join, Robust};
 use crate::threshold::two_scale::Variant;
 
 /// A table: headings, and as many cells in every row.
@@ -160,13 +160,15 @@ pub fn techniques(prices: &[TechniquePrice]) -> Table {
 #[must_use]
 pub fn is_shown(row: &Row) -> bool {
     let is_best = row.isa == Isa::best().name() || row.isa == "scalar";
-    let (is_sine, is_mm4) = (row.hash == HashKind::Sine.name(), row.hash == HashKind::Mm4.name());
+    let (is_sine, is_default) = (row.hash == HashKind::Sine.name(), row.hash == Robust::HASH.name());
     let is_exact = row.tier == Tier::BitExact.name();
     let is_isotropic = row.variant == Variant::Isotropic.name();
     is_best
         && match row.name {
-            LITERAL => row.precision != "double-double" && (is_sine || (is_mm4 && is_exact && is_isotropic)),
-            ROBUST => is_mm4 && is_exact && row.precision == f32::NAME,
+            LITERAL => {
+                row.precision != "double-double" && (is_sine || (is_default && is_exact && is_isotropic))
+            }
+            ROBUST => is_default && is_exact && row.precision == f32::NAME,
             name => {
                 name != "two scales with CDF" && statistical_axis().iter().any(|(known, _)| *known == name)
             }

@@ -24,6 +24,7 @@ pub(crate) const ENTRY: Listed = Listed {
     name: "hoskins",
     reads_octave: false,
     is_exact: false,
+    repeats_after: None,
     #[cfg(feature = "shader")]
     wgsl: &[include_str!("../../shader/chunk/hash_cell/hoskins.wgsl")],
     #[cfg(feature = "gpu")]

@@ -25,6 +25,7 @@ pub(crate) const ENTRY: Listed = Listed {
     name: "interleaved-gradient",
     reads_octave: false,
     is_exact: false,
+    repeats_after: None,
     #[cfg(feature = "shader")]
     wgsl: &[include_str!("../../shader/chunk/hash_cell/interleaved_gradient.wgsl")],
     #[cfg(feature = "gpu")]

@@ -11,6 +11,8 @@ pub(crate) struct Listed {
     pub reads_octave: bool,
     /// Whether it is made of integers, so that every machine gives the same bits.
     pub is_exact: bool,
+    /// The shortest known vector of cells after which all its values are repeated.
+    pub repeats_after: Option<[i32; 3]>,
     /// The text that declares its `hash_cell`, after what that needs.
     #[cfg(feature = "shader")]
     pub wgsl: &'static [&'static str],

@@ -2,7 +2,7 @@
 //! 2018), the sum is ours. Not in the paper.
 
 use super::listed::Listed;
-use super::words::{integer_hash, linear_word, lowbias};
+use super::words::{LINEAR_REPEATS_AFTER, integer_hash, linear_word, lowbias};
 
 integer_hash! {
     /// `lowbias32` of a sum of x, y, z and the octave, each with its weight.
@@ -14,6 +14,7 @@ pub(crate) const ENTRY: Listed = Listed {
     name: "lowbias-linear",
     reads_octave: true,
     is_exact: true,
+    repeats_after: Some(LINEAR_REPEATS_AFTER),
     #[cfg(feature = "shader")]
     wgsl: &[
         include_str!("../../shader/chunk/to_word.wgsl"),

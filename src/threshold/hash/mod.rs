@@ -74,6 +74,14 @@ macro_rules! declare {
                     $(Self::$kind => &$file::ENTRY,)*
                 }
             }
+
+            /// What it is, in a sentence.
+            #[must_use]
+            pub const fn about(self) -> &'static str {
+                match self {
+                    $(Self::$kind => $doc,)*
+                }
+            }
         }
 
         impl<R: Real> Hash<R> for HashKind {
@@ -112,6 +120,13 @@ impl HashKind {
     pub const fn reads_octave(self) -> bool {
         self.entry().reads_octave
     }
+
+    /// The shortest known vector of cells of one octave after which all its values are repeated: every hash that mixes a
+    /// sum of indices with weights has one, of at most 1824 cells.
+    #[must_use]
+    pub const fn repeats_after(self) -> Option<[i32; 3]> {
+        self.entry().repeats_after
+    }
 }
 
 impl fmt::Display for HashKind {
@@ -138,6 +153,24 @@ mod tests {
         }
         let error = "sinus".parse::<HashKind>().unwrap_err();
         assert!(error.to_string().contains("mm4"), "{error}");
+    }
+
+    #[test]
+    fn hashes_repeat_after_the_vector_that_they_state() {
+        for kind in HashKind::ALL {
+            let Some(vector) = kind.repeats_after() else { continue };
+            for at in 0..100 {
+                let index = [7 * at - 300, 31 - at * at, 11 * at];
+                let of = |index: [i32; 3]| -> f64 {
+                    kind.hash(&Cell { index: index.map(f64::from).into(), octave: 5 })
+                };
+                assert_eq!(
+                    of(index),
+                    of([0, 1, 2].map(|axis| index[axis] + vector[axis])),
+                    "{kind} at {index:?}"
+                );
+            }
+        }
     }
 
     #[test]

@@ -15,6 +15,7 @@ pub(crate) const ENTRY: Listed = Listed {
     name: "murmur-nested",
     reads_octave: true,
     is_exact: true,
+    repeats_after: None,
     #[cfg(feature = "shader")]
     wgsl: &[
         include_str!("../../shader/chunk/to_word.wgsl"),

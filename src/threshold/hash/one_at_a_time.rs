@@ -35,6 +35,7 @@ pub(crate) const ENTRY: Listed = Listed {
     name: "one-at-a-time",
     reads_octave: true,
     is_exact: true,
+    repeats_after: None,
     #[cfg(feature = "shader")]
     wgsl: &[
         include_str!("../../shader/chunk/to_word.wgsl"),

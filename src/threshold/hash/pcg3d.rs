@@ -30,6 +30,7 @@ pub(crate) const ENTRY: Listed = Listed {
     name: "pcg3d",
     reads_octave: false,
     is_exact: true,
+    repeats_after: None,
     #[cfg(feature = "shader")]
     wgsl: &[
         include_str!("../../shader/chunk/to_word.wgsl"),

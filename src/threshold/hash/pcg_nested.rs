@@ -22,6 +22,7 @@ pub(crate) const ENTRY: Listed = Listed {
     name: "pcg-nested",
     reads_octave: true,
     is_exact: true,
+    repeats_after: None,
     #[cfg(feature = "shader")]
     wgsl: &[
         include_str!("../../shader/chunk/to_word.wgsl"),

@@ -107,6 +107,7 @@ pub(crate) const ENTRY: Listed = Listed {
     name: "sine",
     reads_octave: false,
     is_exact: false,
+    repeats_after: None,
     #[cfg(feature = "shader")]
     wgsl: &[
         include_str!("../../shader/chunk/hash/sine.wgsl"),

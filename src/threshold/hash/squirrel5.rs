@@ -29,6 +29,7 @@ pub(crate) const ENTRY: Listed = Listed {
     name: "squirrel5",
     reads_octave: true,
     is_exact: true,
+    repeats_after: Some([418, -263, -555]),
     #[cfg(feature = "shader")]
     wgsl: &[
         include_str!("../../shader/chunk/to_word.wgsl"),

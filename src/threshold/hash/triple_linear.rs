@@ -2,7 +2,7 @@
 //! paper.
 
 use super::listed::Listed;
-use super::words::{integer_hash, linear_word};
+use super::words::{LINEAR_REPEATS_AFTER, integer_hash, linear_word};
 
 /// Returns `triple32` of a word: three multiplications, of a bias that its author found to be that of a random permutation.
 #[inline(always)]
@@ -24,6 +24,7 @@ pub(crate) const ENTRY: Listed = Listed {
     name: "triple-linear",
     reads_octave: true,
     is_exact: true,
+    repeats_after: Some(LINEAR_REPEATS_AFTER),
     #[cfg(feature = "shader")]
     wgsl: &[
         include_str!("../../shader/chunk/to_word.wgsl"),

@@ -16,6 +16,7 @@ pub(crate) const ENTRY: Listed = Listed {
     name: "weyl",
     reads_octave: true,
     is_exact: true,
+    repeats_after: Some([849, 1009, -132]),
     #[cfg(feature = "shader")]
     wgsl: &[
         include_str!("../../shader/chunk/to_word.wgsl"),

@@ -58,6 +58,9 @@ pub(super) fn weighted_sum(words: [u32; 4], weights: [u32; 4]) -> u32 {
 /// The weights of [`linear_word`].
 const WEIGHTS: [u32; 4] = [0xc71f_15df, 0xd288_1b55, 0x6290_e857, 0x6a46_fe4f];
 
+/// The shortest vector of cells after which [`linear_word`] repeats.
+pub(super) const LINEAR_REPEATS_AFTER: [i32; 3] = [1746, -205, -235];
+
 /// Returns the words of a cell as one, whatever mixes it afterwards.
 ///
 /// Such a sum repeats: cells of one octave share their word with those (1746, -205, -235) cells on, and with none that are nearer than
@@ -101,7 +104,9 @@ mod tests {
                 }
             }
         }
-        assert_eq!(shortest, (1746 * 1746 + 205 * 205 + 235 * 235, [1746, -205, -235]));
-        assert_eq!(linear_word([1746, -205_i32 as u32, -235_i32 as u32, 0]), 0);
+        let square: i64 = LINEAR_REPEATS_AFTER.map(|c| i64::from(c) * i64::from(c)).iter().sum();
+        assert_eq!(shortest, (square, LINEAR_REPEATS_AFTER));
+        let [x, y, z] = LINEAR_REPEATS_AFTER.map(|c| c as u32);
+        assert_eq!(linear_word([x, y, z, 0]), 0);
     }
 }

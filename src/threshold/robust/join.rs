@@ -94,9 +94,9 @@ impl FromStr for Join {
 pub struct Joined<R: Real> {
     /// Weight of the finer octave, along each axis; of the finer corner for [`Join::Interpolate`].
     pub lerp_factor: [R; 3],
-    /// Hash of the cell that is coarse along every axis.
+    /// Hash of the cell that is coarse along every axis, or the value that it inherits.
     pub hash_coarse: R,
-    /// Hash of the cell that is fine along every axis.
+    /// Hash of the cell that is fine along every axis, or the value that it inherits.
     pub hash_fine: R,
     /// The mixture before it is made uniform; the threshold itself for joins that mix nothing.
     pub interpolated: R,
@@ -166,6 +166,30 @@ pub(super) fn joined<R: Real, H: Hash<R>>(
         }
     };
     Mixed { lerp_factor, interpolated, uniform }
+}
+
+/// Returns the values of the coarse and of the fine cell, between which a join moves: their hashes, or what they inherit.
+pub(super) fn ends<R: Real, H: Hash<R>>(
+    join: Join,
+    variant: Variant,
+    hash: &H,
+    position: R::Vec3,
+    scales: &Scales<R>,
+    repairs: Repairs,
+) -> [R; 2] {
+    let cells = [scales.octave, scales.next_octave].map(|octave| nested_cell::<R>(position, octave, repairs));
+    match (join, variant) {
+        (Join::Inherit, Variant::Anisotropic) => {
+            let [coarse, fine] = cells.map(|cell| cell.index.into());
+            let corners = Corners { coarse, fine, scales, repairs };
+            [false, true].map(|is_fine| hash.hash(&corners.named([is_fine; 3])))
+        }
+        (Join::Inherit, _) => {
+            let of = |cell: Cell<R>, octave: [i32; 3]| inherited(hash, cell.index.into(), octave[0], repairs);
+            [of(cells[0], scales.octave), of(cells[1], scales.next_octave)]
+        }
+        (Join::Interpolate | Join::Copula | Join::Dithered, _) => hash.hash_all(cells),
+    }
 }
 
 /// The cells around a position: those of the coarse and of the fine octave of each axis, in any combination.

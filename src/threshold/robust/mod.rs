@@ -6,10 +6,12 @@
 
 pub mod join;
 pub mod nested;
+pub mod preset;
 pub mod repairs;
 pub mod scales;
 
 pub use join::Join;
+pub use preset::Preset;
 pub use repairs::{Repair, Repairs};
 
 use super::footprint::Footprint;
@@ -18,7 +20,7 @@ use super::real::Real;
 use super::two_scale::Variant;
 use core::fmt;
 use join::{Joined, Mixed};
-use scales::{Scales, nested_cell};
+use scales::Scales;
 
 /// The smallest robust threshold, 2^-24: half a step of the open lattice, so that alpha 0 never passes.
 pub const SMALLEST_ROBUST_THRESHOLD: f64 = 1.0 / 16_777_216.0;
@@ -95,16 +97,37 @@ pub struct RobustTrace<R: Real> {
 }
 
 impl Robust {
-    /// Every repair, MurmurHash3 and a noise of one pixel; joined as in the paper with one scale, by the copula with
-    /// one scale an axis, where the paper's join jumps.
+    /// The hash that is taken unless another one is named: the fastest that no claim rejects, by `docs/hashes.md`.
+    pub const HASH: HashKind = HashKind::LowbiasLinear;
+
+    /// Every repair, [`Robust::HASH`] and a noise of one pixel; joined as in the paper with one scale, by the copula with
+    /// one scale an axis, where the paper's join jumps. [`Robust::recommended`] has joins that change less.
     #[must_use]
     pub const fn new(variant: Variant) -> Self {
         let join = if matches!(variant, Variant::Anisotropic) { Join::Copula } else { Join::Interpolate };
-        Self { variant, hash: HashKind::Mm4, hash_scale: 1.0, join, repairs: Repairs::ALL }
+        Self { variant, hash: Self::HASH, hash_scale: 1.0, join, repairs: Repairs::ALL }
     }
 }
 
 impl Robust {
+    /// The threshold that is recommended: with every repair, noise of one pixel, and the fastest hash that no claim rejects.
+    ///
+    /// ```
+    /// use hashed_alpha::threshold::robust::{Preset, Robust};
+    /// use hashed_alpha::Footprint;
+    ///
+    /// let footprint = Footprint::<f32>::new([0.31, -1.72, 2.43], [0.0121, 0.0003, -0.0007], [0.0002, 0.0094, 0.0033]);
+    /// let threshold = Robust::recommended(Preset::Steady).threshold(&footprint).expect("a finite footprint");
+    /// let is_kept = 0.7 >= threshold;
+    /// ```
+    #[must_use]
+    pub const fn recommended(preset: Preset) -> Self {
+        match preset {
+            Preset::Steady => Self { join: Join::Inherit, ..Self::new(Variant::Isotropic) },
+            Preset::Smooth => Self { join: Join::Copula, ..Self::new(Variant::Anisotropic) },
+        }
+    }
+
     /// Whether the hash tells cells of different octaves apart where the join needs it: [`Join::Inherit`] hashes cells of several octaves
     /// side by side, and by their indices alone whole layers would have one threshold.
     #[must_use]
@@ -114,9 +137,9 @@ impl Robust {
 }
 
 impl Default for Robust {
-    /// With one scale for all axes.
+    /// [`Robust::recommended`], steady.
     fn default() -> Self {
-        Self::new(Variant::Isotropic)
+        Self::recommended(Preset::Steady)
     }
 }
 
@@ -168,8 +191,8 @@ impl<H> Robust<H> {
         H: Hash<R>,
     {
         let (scales, mixed, threshold) = self.made(self.variant, self.join, self.repairs, footprint)?;
-        let cell = |octave| nested_cell(footprint.position, octave, self.repairs);
-        let [hash_coarse, hash_fine] = self.hash.hash_all([cell(scales.octave), cell(scales.next_octave)]);
+        let [hash_coarse, hash_fine] =
+            join::ends(self.join, self.variant, &self.hash, footprint.position, &scales, self.repairs);
         let Mixed { lerp_factor, interpolated, uniform } = mixed;
         let joined = Joined { lerp_factor, hash_coarse, hash_fine, interpolated, uniform };
         Ok(RobustTrace { scales, joined, threshold })
@@ -276,6 +299,16 @@ mod tests {
     }
 
     #[test]
+    fn names_lead_back_and_every_preset_can_be_joined() {
+        for preset in Preset::ALL {
+            assert_eq!(preset.name().parse(), Ok(preset));
+            let robust = Robust::recommended(preset);
+            assert!(robust.tells_octaves_apart() && Preset::of(robust.variant) == preset);
+        }
+        assert_eq!(Robust::default(), Robust::recommended(Preset::Steady));
+    }
+
+    #[test]
     fn bad_input_is_named() {
         let good = Footprint::<f32> { position: Vec3::ONE, dpdx: Vec3::X, dpdy: Vec3::Y };
         let robust = Robust::new(Variant::Isotropic);
@@ -296,6 +329,18 @@ mod tests {
         }
         let origin = Footprint { position: Vec3::ZERO, ..still };
         assert!(Robust::new(Variant::Anisotropic).threshold(&origin).is_ok());
+    }
+
+    /// A join that switches takes the value of the coarse or of the fine cell, inherited or not.
+    #[test]
+    fn a_trace_shows_the_value_that_is_taken() {
+        for join in [Join::Dithered, Join::Inherit] {
+            let robust = Robust { join, ..Robust::new(Variant::Isotropic) };
+            for footprint in footprints() {
+                let RobustTrace { joined, threshold, .. } = robust.trace(&footprint).unwrap();
+                assert!([joined.hash_coarse, joined.hash_fine].contains(&threshold), "{join}: {footprint:?}");
+            }
+        }
     }
 
     #[test]

@@ -3,8 +3,8 @@
 use super::repairs::{Repair, Repairs};
 use crate::threshold::footprint::Footprint;
 use crate::threshold::hash::{Cell, octave_word};
-use crate::threshold::real::{Real, power_of_two};
-use crate::threshold::two_scale::{Variant, length_of, square_of};
+use crate::threshold::real::{Real, length_of, power_of_two, square_of};
+use crate::threshold::two_scale::Variant;
 
 /// The octave and the place within it along each axis. Isotropic scales hold the same value three times.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,8 +1,9 @@
 //! Listing 2: one scale an axis, each between two octaves.
 
-use super::scales::{TwoScale, cell_at, length_of};
+use super::scales::{TwoScale, cell_at};
 use crate::threshold::footprint::Footprint;
 use crate::threshold::real::Real;
+use crate::threshold::real::length_of;
 
 /// Finds the two opposite corners of the box of octaves around the three scales. Listing 2, up to `lerpFactor`.
 ///

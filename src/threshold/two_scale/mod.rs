@@ -10,7 +10,6 @@ mod scales;
 pub mod single;
 
 pub use scales::TwoScale;
-pub(crate) use scales::{length_of, square_of};
 
 use super::choice::{UnknownName, by_name};
 use super::footprint::Footprint;

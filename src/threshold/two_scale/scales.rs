@@ -2,7 +2,7 @@
 
 use crate::threshold::footprint::Footprint;
 use crate::threshold::hash::{Cell, octave_word};
-use crate::threshold::real::Real;
+use crate::threshold::real::{Real, length_of};
 
 /// The two cells of a footprint and the weight between them.
 ///
@@ -23,18 +23,6 @@ pub struct TwoScale<R: Real> {
     pub ceil_cell: Cell<R>,
     /// Weight of the second cell, in [0, 1] (`lerpFactor`).
     pub lerp_factor: R,
-}
-
-/// Returns the Euclidean length, summed from left to right (GLSL's `length`).
-#[inline(always)]
-pub(crate) fn length_of<R: Real>(v: [R; 3]) -> R {
-    square_of(v).sqrt()
-}
-
-/// Returns the square of the Euclidean length, summed from left to right.
-#[inline(always)]
-pub(crate) fn square_of<R: Real>([x, y, z]: [R; 3]) -> R {
-    x * x + y * y + z * z
 }
 
 /// Returns the larger length of the two derivatives: `max(length_of(dFdx(objCoord.xyz)), length_of(dFdy(objCoord.xyz)))`.
