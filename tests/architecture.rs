@@ -18,7 +18,7 @@ const MAY_IMPORT: [(&str, &[&str]); 10] = [
     ("shader", &["threshold", "scene"]),
     ("render", &["threshold", "scene", "shader", "technique"]),
     ("check", &["threshold", "scene", "stats", "shader"]),
-    ("cost", &["threshold", "stats", "shader", "technique", "render"]),
+    ("cost", &["threshold", "scene", "stats", "shader", "technique", "render"]),
     ("report", &["threshold", "render", "check", "cost"]),
     ("cli", &["threshold", "scene", "shader", "render", "check", "cost", "report"]),
 ];

@@ -68,3 +68,9 @@ mod techniques;
 mod annotated;
 #[cfg(feature = "cli")]
 mod cli;
+#[cfg(feature = "cli")]
+mod findings;
+#[cfg(feature = "cli")]
+mod hashes;
+#[cfg(feature = "cli")]
+mod recommendation;

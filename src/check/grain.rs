@@ -34,7 +34,7 @@ const PICTURES: usize = 24;
 const FRACTIONS: [f64; 4] = [0.0, 0.25, 0.5, 0.75];
 
 /// The octave of the longest derivative: a coordinate has some ten bits left within a pixel.
-const OCTAVE: f64 = -6.0;
+pub(super) const OCTAVE: f64 = -6.0;
 
 /// How many times the one derivative is as long as the other at a grazing angle.
 const STRETCH: f64 = 8.0;
@@ -189,7 +189,7 @@ fn thresholds(subject: &Subject<'_>, patch: &Patch, start: &Start, moved: DVec2)
     values(subject, &fragments)
 }
 
-fn values(subject: &Subject<'_>, fragments: &[Fragment]) -> Result<Vec<f64>, String> {
+pub(super) fn values(subject: &Subject<'_>, fragments: &[Fragment]) -> Result<Vec<f64>, String> {
     let values = subject.thresholds(fragments);
     reject_outsiders(subject, fragments, &values).map_err(|trial| trial.seen.clone())?;
     Ok(values)

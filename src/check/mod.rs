@@ -19,6 +19,7 @@
 //!
 //! What never lives here: statistics themselves ([`crate::stats`]), pictures ([`crate::report`]), printing.
 
+pub mod catalogue;
 #[doc(hidden)]
 pub mod cause;
 pub mod claim;
@@ -41,6 +42,7 @@ pub mod known;
 #[cfg(feature = "shader")]
 #[doc(hidden)]
 pub mod mend;
+pub mod motion;
 #[doc(hidden)]
 pub mod outcome;
 #[doc(hidden)]
@@ -53,6 +55,7 @@ pub mod rests_on;
 pub mod results;
 #[doc(hidden)]
 pub mod run;
+pub mod scale_policy;
 #[cfg(feature = "shader")]
 pub mod shaders;
 mod shrink;

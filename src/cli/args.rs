@@ -55,6 +55,7 @@ pub enum Verb {
     Eval(EvalArgs),
     Explain(ExplainArgs),
     Grain(GrainArgs),
+    Hashes(HashesArgs),
     Render(RenderArgs),
     Scenes(ScenesArgs),
     Shader(ShaderTextArgs),
@@ -89,7 +90,7 @@ A file of known findings makes the exit code speak of news alone:
 pub struct CheckArgs {
     /// Subjects to try: `paper`, `robust`, or one variant of them as in `paper:isotropic`; the same on a device as in
     /// `gpu:robust`; a shader file (.wgsl, .glsl, .frag, .fsh, .spv, ... or between the quotes of a .js, .ts, .py, .h), with `#NAME` behind it
-    /// for a function of it; one hash alone as in `hash:mm4`, or as a shader's function from `vec4u` to `u32`. `robust` when none
+    /// for a function of it; `recommended` for the threshold that we recommend, in two presets; one hash alone as in `hash:mm4`, or as a shader's function from `vec4u` to `u32`. `robust` when none
     /// is given
     #[arg(value_name = "SUBJECT")]
     pub subjects: Vec<String>,
@@ -209,6 +210,39 @@ impl On {
     }
 }
 
+/// What a shader file is meant to be; one that `shader` has written says so itself, where none of these is stated
+#[derive(Clone, Debug, PartialEq, clap::Args)]
+pub struct ClaimArgs {
+    /// Which listing a shader file follows; isotropic, as Listing 1, unless stated
+    #[arg(long, value_parser = one_of(Variant::ALL, Variant::name))]
+    pub variant: Option<Variant>,
+    /// How a shader file joins the hashes of two octaves; interpolate, as the paper, unless stated
+    #[arg(long, value_parser = one_of(Join::ALL, Join::name))]
+    pub join: Option<Join>,
+    /// Size of the noise in pixels that a shader file is meant to have, above 0; 1, or what --set hash_scale gives
+    #[arg(long, value_name = "S", value_parser = size, allow_negative_numbers = true)]
+    pub hash_scale: Option<f64>,
+    /// A shader file cuts its cells between whole numbers, as the robust threshold does
+    #[arg(long)]
+    pub nested_phase: bool,
+}
+
+impl ClaimArgs {
+    /// What holds where nothing was typed.
+    pub const UNSTATED: Self = Self { variant: None, join: None, hash_scale: None, nested_phase: false };
+
+    /// Reads the options of one line.
+    pub fn read(line: &str) -> Option<Self> {
+        #[derive(clap::Parser)]
+        #[command(no_binary_name = true)]
+        struct Line {
+            #[command(flatten)]
+            claims: ClaimArgs,
+        }
+        <Line as clap::Parser>::try_parse_from(line.split_whitespace()).ok().map(|line| line.claims)
+    }
+}
+
 /// How shader files are read and run
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "Shaders")]
@@ -238,18 +272,8 @@ pub struct ShaderArgs {
     /// Index of a GPU or part of its name; also in the variable HASHED_ALPHA_ADAPTER
     #[arg(long, value_name = "GPU")]
     pub adapter: Option<String>,
-    /// Which listing a shader file follows
-    #[arg(long, default_value = "isotropic", value_parser = one_of(Variant::ALL, Variant::name))]
-    pub variant: Variant,
-    /// How a shader file joins the hashes of two octaves; interpolate, as the paper, unless stated
-    #[arg(long, value_parser = one_of(Join::ALL, Join::name))]
-    pub join: Option<Join>,
-    /// Size of the noise in pixels that a shader file is meant to have, above 0; 1, or what --set hash_scale gives
-    #[arg(long, value_name = "S", value_parser = size, allow_negative_numbers = true)]
-    pub hash_scale: Option<f64>,
-    /// A shader file cuts its cells between whole numbers, as the robust threshold does
-    #[arg(long)]
-    pub nested_phase: bool,
+    #[command(flatten)]
+    pub claims: ClaimArgs,
     /// Over how many frames a shader file spreads its thresholds (Eq. 6), or `sequence` where it goes through a sequence of frames,
     /// as by fract(threshold + frame * 0.618034)
     #[arg(long, value_name = "N", default_value = "1", allow_negative_numbers = true)]
@@ -287,11 +311,12 @@ pub struct CompareArgs {
 ///
 /// Grain is the power of the picture of what is visible below 1/16 of a cycle a pixel, divided by alpha (1 - alpha): 1 for noise
 /// without order, less for noise that the eye averages away, more for clumps. Beside it stand the shares of pixels that appear or
-/// vanish in 1/8 of a pixel of motion and in an octave of zoom.
+/// vanish in 1/8 of a pixel of motion and in an octave of zoom, the greatest share of a surface that a small motion of the camera changes
+/// at once, and how long runs of pixels are at grazing angles.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
-  hashed-alpha grain robust:isotropic robust:isotropic:inherit
+  hashed-alpha grain robust:isotropic recommended
   hashed-alpha grain my.wgsl --json")]
 pub struct GrainArgs {
     /// Subjects, as for `check`
@@ -304,6 +329,43 @@ pub struct GrainArgs {
     pub seed: u64,
     /// One JSON object a row in place of the table
     #[arg(long)]
+    pub json: bool,
+}
+
+/// Lists the hashes, or measures each: how good, how fast, how steady
+///
+/// `samples to failure` are those of the first claim that rejects a hash alone, or the most that none rejects; grain, flips and operations
+/// are those of the robust threshold with one scale, times the fastest rounds of a run in which all hashes take turns. What is
+/// known is written to the folder of the report after each hash.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  hashed-alpha hashes
+  hashed-alpha hashes --measure                            every hash, some ten minutes
+  hashed-alpha hashes mm4 lowbias-linear --measure --doublings 2
+  hashed-alpha check hash:wyhash32 --until-failure         one hash, claim by claim")]
+pub struct HashesArgs {
+    /// Which; all when none is given
+    #[arg(value_name = "HASH", value_parser = one_of(HashKind::ALL, HashKind::name))]
+    pub hashes: Vec<HashKind>,
+    /// Measure them
+    #[arg(long)]
+    pub measure: bool,
+    /// Double the samples of a claim no more than K times
+    #[arg(long, value_name = "K", default_value_t = 3, requires = "measure", value_parser = clap::value_parser!(u32).range(0..=16))]
+    pub doublings: u32,
+    /// Take the time of few rounds
+    #[arg(long, requires = "measure")]
+    pub quick: bool,
+    /// Folder for what was measured
+    #[arg(long, value_name = "DIR", default_value = "report")]
+    pub out: PathBuf,
+    /// Page of which the table between `<!-- hashes -->` and `<!-- end of hashes -->` is written anew; the figure and the numbers are
+    /// written beside it
+    #[arg(long, value_name = "FILE", requires = "measure", conflicts_with_all = ["hashes", "quick"])]
+    pub page: Option<PathBuf>,
+    /// One JSON object a hash in place of the table
+    #[arg(long, requires = "measure")]
     pub json: bool,
 }
 
@@ -365,7 +427,7 @@ Examples:
   hashed-alpha shader > threshold.wgsl
   hashed-alpha shader --lang hlsl --variant anisotropic
   hashed-alpha shader --lang spirv --out threshold.spv
-  hashed-alpha shader --lang wgsl --out mine.wgsl && hashed-alpha check mine.wgsl --nested-phase")]
+  hashed-alpha shader --lang wgsl --out mine.wgsl && hashed-alpha check mine.wgsl")]
 pub struct ShaderTextArgs {
     /// Shading language
     #[arg(long, default_value = "wgsl", value_parser = one_of(Language::ALL, Language::name))]
@@ -373,10 +435,10 @@ pub struct ShaderTextArgs {
     /// How scales are chosen from the derivatives
     #[arg(long, default_value = "isotropic", value_parser = one_of(Variant::ALL, Variant::name))]
     pub variant: Variant,
-    /// What gives a cell its value; mm4 unless stated, sine as in the paper with --literal
+    /// What gives a cell its value; lowbias-linear unless stated, sine as in the paper with --literal
     #[arg(long, value_parser = one_of(HashKind::ALL, HashKind::name))]
     pub hash: Option<HashKind>,
-    /// How the hashes of two octaves become one value; interpolate unless stated, copula for anisotropic
+    /// How the hashes of two octaves become one value; unless stated inherit, and copula for anisotropic
     #[arg(long, value_parser = one_of(Join::ALL, Join::name))]
     pub join: Option<Join>,
     /// Size of the noise in pixels, above 0
@@ -411,10 +473,10 @@ pub struct EvalArgs {
     /// How scales are chosen from the derivatives
     #[arg(long, default_value = "isotropic", value_parser = one_of(Variant::ALL, Variant::name))]
     pub variant: Variant,
-    /// What gives a cell its value; mm4 unless stated, sine as in the paper with --literal, linear and single
+    /// What gives a cell its value; lowbias-linear unless stated, sine as in the paper with --literal, linear and single
     #[arg(long, value_parser = one_of(HashKind::ALL, HashKind::name))]
     pub hash: Option<HashKind>,
-    /// How the hashes of two octaves become one value; interpolate unless stated, copula for anisotropic
+    /// How the hashes of two octaves become one value; unless stated inherit, and copula for anisotropic
     #[arg(long, value_parser = one_of(Join::ALL, Join::name))]
     pub join: Option<Join>,
     /// Leave out one repair of the robust threshold; can be given several times

@@ -43,7 +43,7 @@ pub fn run(args: &CostArgs) -> Result<Ending, Failure> {
 }
 
 /// Runs a measurement with a bar on stderr, where that is a terminal.
-fn measured<T>(steps: u64, measure: impl FnOnce(&dyn Fn()) -> T) -> T {
+pub fn measured<T>(steps: u64, measure: impl FnOnce(&dyn Fn()) -> T) -> T {
     let bar = ProgressBar::new(steps);
     let found = measure(&|| bar.inc(1));
     bar.finish_and_clear();
@@ -146,18 +146,22 @@ fn of_drawing(args: &CostArgs, effort: Effort) -> Result<Ending, Failure> {
 }
 
 /// Writes a table between its marks in a page.
-fn into_page(path: &Path, mark: &str, table: &str) -> Result<(), Failure> {
+pub fn into_page(path: &Path, mark: &str, table: &str) -> Result<(), Failure> {
+    Ok(write_atomically(path, with_table(path, mark, table)?.as_bytes())?)
+}
+
+/// A page with a table between its marks.
+pub fn with_table(path: &Path, mark: &str, table: &str) -> Result<String, Failure> {
     let place = || path.display().to_string();
     let text = std::fs::read_to_string(path).map_err(|source| Failure::File {
         action: "read",
         place: place(),
         source,
     })?;
-    let page = page::replaced(&text, mark, table).ok_or_else(|| {
+    page::replaced(&text, mark, table).ok_or_else(|| {
         let marks = format!("`<!-- {mark} -->` and `<!-- end of {mark} -->`");
         Failure::Usage(format!("{} does not have the lines {marks}", place()))
-    })?;
-    Ok(write_atomically(path, page.as_bytes())?)
+    })
 }
 
 fn written(folder: &Path, name: &str, text: &str) -> Result<(), Failure> {

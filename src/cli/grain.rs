@@ -3,7 +3,8 @@
 use super::args::GrainArgs;
 use super::failure::Failure;
 use super::{Ending, drivers, output, shader_files, subjects};
-use hashed_alpha::report::grain::{Measured, json_lines, table};
+use hashed_alpha::check::Subject;
+use hashed_alpha::report::grain::{Measured, Moved, json_lines, table};
 use std::io::Write;
 
 /// Measures every subject; one that cannot be run is told on stderr.
@@ -15,10 +16,13 @@ pub fn run(args: &GrainArgs) -> Result<Ending, Failure> {
     let mut ending = Ending::Consistent;
     let mut all = Vec::new();
     for asked in &asked {
-        match Measured::new(&asked.subject, args.seed) {
-            Ok(measured) => all.push(measured),
+        let both = Measured::new(&asked.subject, args.seed)
+            .and_then(|measured| Ok((measured, Moved::new(&asked.subject, args.seed)?)));
+        match both {
+            Ok(both) => all.push(both),
             Err(reason) => {
-                output::remark("error", format_args!("{}: {reason}", asked.subject.name));
+                let Subject { name, precision, .. } = &asked.subject;
+                output::remark("error", format_args!("{name} in {precision}: {reason}"));
                 ending = Ending::NoVerdict;
             }
         }

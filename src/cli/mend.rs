@@ -29,14 +29,14 @@ pub fn run(args: &CheckArgs) -> Result<Ending, Failure> {
     options.function.clone_from(&shader.named);
     let refused = |source| Failure::File { action: "read", place: file.path.to_owned(), source };
     let text = std::fs::read_to_string(path).map_err(refused)?;
-    let claimed = subjects::Claimed::of(&args.shader, &options, &shader);
+    let claimed = subjects::Claimed::of(&file, &args.shader, &options, &shader);
     let name = file.name();
     let broken = Broken {
         file: &name,
         language,
         text: &text,
         options: &options,
-        variant: args.shader.variant,
+        variant: claimed.variant,
         claims: claims::ALL,
         claiming: &|subject| claimed.by(subject),
     };

@@ -3,7 +3,7 @@
 //! | module | holds |
 //! |---|---|
 //! | [`args`] | verbs, options and their help |
-//! | [`check`], [`compare`], [`eval`], [`explain`], [`grain`], [`render`], [`scenes`], [`shader`] | one job a verb |
+//! | [`check`], [`compare`], [`eval`], [`explain`], [`grain`], [`hashes`], [`render`], [`scenes`], [`shader`] | one job a verb |
 //! | [`growth`] | `check --until-failure` |
 //! | [`mend`] | `check --mend` |
 //! | [`scene_files`] | what a typed scene means |
@@ -28,6 +28,7 @@ mod explain;
 mod failure;
 mod grain;
 mod growth;
+mod hashes;
 mod known;
 mod mend;
 mod output;
@@ -70,6 +71,7 @@ pub fn run(args: &Args) -> Result<Ending, Failure> {
         Verb::Eval(args) => eval::run(args),
         Verb::Explain(args) => explain::run(args),
         Verb::Grain(args) => grain::run(args),
+        Verb::Hashes(args) => hashes::run(args),
         Verb::Render(args) => render::run(args),
         Verb::Scenes(args) => scenes::run(args),
         Verb::Shader(args) => shader::run(args),

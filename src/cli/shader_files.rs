@@ -1,9 +1,12 @@
 //! What a typed shader file means: which function of it, and with which values.
 
-use super::args::ShaderArgs;
+use super::args::{ClaimArgs, ShaderArgs};
 use super::failure::Failure;
+use super::output;
+use hashed_alpha::shader::export::VERIFY;
 use hashed_alpha::shader::own::{self, Language};
 use std::collections::BTreeMap;
+use std::fs;
 use std::path::Path;
 
 /// A shader file as it was typed: `FILE`, or `FILE#FUNCTION`.
@@ -35,6 +38,26 @@ impl<'a> ShaderFile<'a> {
         let path = Path::new(self.path);
         let file = path.file_name().map_or_else(|| self.path.into(), |name| name.to_string_lossy());
         self.function.map_or_else(|| file.to_string(), |function| format!("{file}#{function}"))
+    }
+
+    /// Returns what the file is meant to be: as was typed, or where nothing was, as the one line of it says that `shader` wrote.
+    pub fn claims(&self, args: &ShaderArgs) -> ClaimArgs {
+        if args.claims != ClaimArgs::UNSTATED {
+            return args.claims.clone();
+        }
+        let text = fs::read(self.path).unwrap_or_default();
+        let text = String::from_utf8_lossy(&text);
+        let mut said =
+            text.lines().filter_map(|line| line.split_once(VERIFY)).map(|(_, options)| options.trim());
+        let (Some(options), None) = (said.next(), said.next()) else { return args.claims.clone() };
+        match ClaimArgs::read(options) {
+            Some(claims) if claims != args.claims => {
+                let name = self.name();
+                output::remark("note", format_args!("{name} is tried as it says itself: {options}"));
+                claims
+            }
+            _ => args.claims.clone(),
+        }
     }
 
     /// Returns what is asked of the file: values that name it go before those that hold for every file.

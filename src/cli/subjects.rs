@@ -166,8 +166,17 @@ fn unknown(word: &str) -> Failure {
     if let Some(instead) = own::instead_of(Path::new(file)) {
         return Failure::Usage(format!("{file}: {instead}"));
     }
-    let mut known: Vec<String> =
-        ["paper", "paper:isotropic", "paper:anisotropic", "robust"].map(str::to_owned).into();
+    let mut known: Vec<String> = [
+        "paper",
+        "paper:isotropic",
+        "paper:anisotropic",
+        "recommended",
+        "recommended:steady",
+        "recommended:smooth",
+        "robust",
+    ]
+    .map(str::to_owned)
+    .into();
     for variant in ["robust:isotropic", "robust:anisotropic"] {
         known.push(variant.to_owned());
         known.extend(Join::ALL.map(|join| format!("{variant}:{join}")));
@@ -175,7 +184,7 @@ fn unknown(word: &str) -> Failure {
     let likely = likely(word, &known);
     Failure::Usage(format!(
         "unknown subject `{word}`.{likely} Known are paper:isotropic, paper:anisotropic, robust:isotropic, \
-         robust:anisotropic (the robust ones with a join behind them, too, as robust:isotropic:inherit), each with gpu: before \
+         robust:anisotropic, recommended:steady, recommended:smooth (the robust ones with a join behind them, too, as robust:isotropic:inherit), each with gpu: before \
          it too, hash: with the name of a hash behind it, and files of shaders, as my.glsl, or of programs that hold one, as \
          my.js"
     ))
@@ -208,6 +217,7 @@ fn built_in(name: &str, on: On, args: &ShaderArgs) -> Result<Option<Vec<Asked>>,
     let join: Option<Join> = more.last().and_then(|word| word.parse().ok());
     let (family, mut all) = match (family, join) {
         (Some("paper"), _) => (Family::Paper, Subject::paper()),
+        (Some("recommended"), None) => (Family::Robust, Subject::recommended()),
         (Some("robust"), None) => (Family::Robust, Subject::all_repairs()),
         (Some("robust"), Some(join)) => {
             more.pop();
@@ -217,7 +227,8 @@ fn built_in(name: &str, on: On, args: &ShaderArgs) -> Result<Option<Vec<Asked>>,
     };
     all.retain(|subject| match more[..] {
         [] => true,
-        [variant] => subject.variant.name() == variant,
+        // `robust:isotropic`, `recommended:steady`.
+        [word] => subject.name.split(':').nth(1) == Some(word),
         _ => false,
     });
     if all.is_empty() {
@@ -252,7 +263,7 @@ fn built_in(name: &str, on: On, args: &ShaderArgs) -> Result<Option<Vec<Asked>>,
 
 /// What a shader claims of itself.
 pub struct Claimed {
-    variant: Variant,
+    pub variant: Variant,
     join: Join,
     nested_phase: bool,
     hash_scale: f64,
@@ -261,16 +272,18 @@ pub struct Claimed {
 
 impl Claimed {
     /// What the options say of a shader file.
-    pub fn of(args: &ShaderArgs, options: &own::Options, shader: &OwnShader) -> Self {
+    pub fn of(typed: &ShaderFile<'_>, args: &ShaderArgs, options: &own::Options, shader: &OwnShader) -> Self {
+        let stated = typed.claims(args);
         let set = || options.settings.get("hash_scale").and_then(|value| value.parse().ok());
         // Under another name that is known for it.
         let taken = || shader.hash_scale().map(f64::from);
-        let preset = Robust::new(args.variant).join;
+        let variant = stated.variant.unwrap_or(Variant::Isotropic);
+        let preset = Robust::new(variant).join;
         Self {
-            variant: args.variant,
-            join: args.join.unwrap_or(if args.nested_phase { preset } else { Join::Interpolate }),
-            nested_phase: args.nested_phase,
-            hash_scale: args.hash_scale.or_else(set).or_else(taken).unwrap_or(1.0),
+            variant,
+            join: stated.join.unwrap_or(if stated.nested_phase { preset } else { Join::Interpolate }),
+            nested_phase: stated.nested_phase,
+            hash_scale: stated.hash_scale.or_else(set).or_else(taken).unwrap_or(1.0),
             frames: args.frames,
         }
     }
@@ -310,9 +323,9 @@ fn file(typed: &ShaderFile<'_>, args: &ShaderArgs) -> Result<Vec<Asked>, Failure
         let hashes = own_hash(&typed.name(), &shader, args)?;
         return Ok(hashes.into_iter().map(|asked| Asked { written: written.clone(), ..asked }).collect());
     }
-    let claims = Claimed::of(args, &options, &shader);
+    let claims = Claimed::of(typed, args, &options, &shader);
     let name = typed.name();
-    let remarks = stops(&shader, args.variant)?;
+    let remarks = stops(&shader, claims.variant)?;
     let subjects = placed(&name, &shader, args.on, args, &claims, None)?;
     if subjects.iter().any(|asked| asked.place == Place::Device) {
         // A device does not tell.

@@ -8,6 +8,7 @@
 //! | `devices` (feature `gpu`) | what does it add on a device, by the device's own clock? |
 //! | `techniques` (feature `render`) | what does each technique add to a whole frame of the scene that shows it? |
 //! | `drawing` (feature `render`) | how does the time of a frame grow with triangles and pixels? |
+//! | `hashes` (feature `shader`) | what does each hash of the list cost? |
 //! | [`sizes`] | do time and memory grow with the number of samples? |
 //! | [`clock`] | how things are timed so that the ratios mean something |
 //! | [`pool`] | the footprints that are evaluated |
@@ -24,6 +25,8 @@ pub mod double_double;
 #[cfg(feature = "render")]
 pub mod drawing;
 pub mod effects;
+#[cfg(feature = "shader")]
+pub mod hashes;
 pub mod ladder;
 pub mod law;
 pub mod pool;

@@ -2,6 +2,7 @@
 
 use crate::check::Subject;
 use crate::check::grain::{self, Grain, Plane, ZoomFlips};
+use crate::check::motion::{self, Pops, Runs};
 use serde::Serialize;
 use std::fmt::Write as _;
 
@@ -46,6 +47,25 @@ impl Measured {
     }
 }
 
+/// How a subject answers to the camera.
+pub struct Moved {
+    /// What [`motion::pops`] found.
+    pub pops: Vec<Pops>,
+    /// What [`motion::runs`] found.
+    pub runs: Vec<Runs>,
+}
+
+impl Moved {
+    /// Measures a subject.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`motion::pops`].
+    pub fn new(subject: &Subject<'_>, seed: u64) -> Result<Self, String> {
+        Ok(Self { pops: motion::pops(subject, seed)?, runs: motion::runs(subject, seed)? })
+    }
+}
+
 /// The head of a table of [`Measured::markdown`]: each cell for alpha 0.1, 0.25 and 0.5.
 pub const MARKDOWN_HEAD: &str = "\
 | threshold | grain, axis plane | general position | grazing angle | flips at 1/8 pixel, axis plane | general position | flips an octave |
@@ -54,13 +74,16 @@ pub const MARKDOWN_HEAD: &str = "\
 /// What the numbers are, in a line or two.
 pub const MEANING: &str = "grain: power of what is visible below 1/16 cycle a pixel, 1 for noise without order (256 x 256 pixels, no \
                            other window; mean of 24 pictures and its standard error)\nflips: share of pixels that appear or vanish when \
-                           the surface moves by 1/8 pixel; an octave: share of points that do while the camera comes an octave closer";
+                           the surface moves by 1/8 pixel; an octave: share of points that do while the camera comes an octave closer\na small \
+                           motion: 1/64 of an octave, or of a quarter turn about the line of sight, around the surface's normal, \
+                           towards the surface\nruns: pixels in a row that are all visible or all not, at alpha 0.5, across the \
+                           direction of view and along it";
 
 /// The table for a terminal.
 #[must_use]
-pub fn table(all: &[Measured]) -> String {
+pub fn table(all: &[(Measured, Moved)]) -> String {
     let mut text = String::new();
-    for Measured { name, grain, zoom } in all {
+    for (Measured { name, grain, zoom }, Moved { pops, runs }) in all {
         // Writing to a string cannot fail.
         let _ = writeln!(text, "{name}\n  surface           alpha  grain        flips");
         for Grain { plane, alpha, grain, error, flips } in grain {
@@ -72,6 +95,19 @@ pub fn table(all: &[Measured]) -> String {
             let _ = writeln!(
                 text,
                 "  an octave         {alpha:<5}  {flips:.4} ± {error:.4} flips, {without_memory:.2} times 2 alpha (1 - alpha)"
+            );
+        }
+        text += "  a small motion    mean    worst  of a surface's points appear or vanish\n";
+        for Pops { motion, mean, worst, at } in pops {
+            let (motion, tilt) = (motion.name(), at.tilt.to_degrees());
+            let _ = writeln!(text, "  {motion:<16}  {mean:.4}  {worst:.4} (at a tilt of {tilt:.0} degrees)");
+        }
+        text += "  pixel             runs across, along  flips across, along\n";
+        for Runs { stretch, lengths: [across, along], flips: [flips_across, flips_along] } in runs {
+            let pixel = format!("{stretch} times as long");
+            let _ = writeln!(
+                text,
+                "  {pixel:<16}  {across:5.2}  {along:5.2}        {flips_across:.4}  {flips_along:.4}"
             );
         }
     }
@@ -89,14 +125,33 @@ struct Line<'a> {
     flips: f64,
 }
 
-/// One JSON object a row; the rows of an octave of zoom have no grain.
+/// What a small motion changes as JSON.
+#[derive(Serialize)]
+struct PopLine<'a> {
+    subject: &'a str,
+    motion: &'a str,
+    mean: f64,
+    worst: f64,
+}
+
+/// Runs at one angle as JSON, across the direction of view and along it.
+#[derive(Serialize)]
+struct RunLine<'a> {
+    subject: &'a str,
+    stretch: f64,
+    runs: [f64; 2],
+    flips: [f64; 2],
+}
+
+/// One JSON object a row; the rows of an octave of zoom have no grain. Rows with the key `motion` are what a small motion changes, those with
+/// `stretch` runs and flips across the direction of view and along it.
 ///
 /// # Errors
 ///
 /// None that can happen: what is written are numbers and names.
-pub fn json_lines(all: &[Measured]) -> serde_json::Result<String> {
+pub fn json_lines(all: &[(Measured, Moved)]) -> serde_json::Result<String> {
     let mut text = String::new();
-    for Measured { name: subject, grain, zoom } in all {
+    for (Measured { name: subject, grain, zoom }, Moved { pops, runs }) in all {
         let of_grain = grain.iter().map(|found| Line {
             subject,
             surface: found.plane.name(),
@@ -115,6 +170,14 @@ pub fn json_lines(all: &[Measured]) -> serde_json::Result<String> {
         });
         for line in of_grain.chain(of_zoom) {
             text += &serde_json::to_string(&line)?;
+            text.push('\n');
+        }
+        for &Pops { motion, mean, worst, .. } in pops {
+            text += &serde_json::to_string(&PopLine { subject, motion: motion.name(), mean, worst })?;
+            text.push('\n');
+        }
+        for &Runs { stretch, lengths, flips } in runs {
+            text += &serde_json::to_string(&RunLine { subject, stretch, runs: lengths, flips })?;
             text.push('\n');
         }
     }

@@ -11,6 +11,7 @@
 //! | [`study`] | `cli` | plans, counts and numbers of scenes as text, CSV and JSON |
 //! | [`grain`] | `cli` | grain and flips of subjects: text, JSON, Markdown |
 //! | [`growth`] | samples until failure: the table, one JSON object a claim, the state that a run continues from |
+//! | [`hashes`] | `cli` | the hashes of the list: text, JSON, Markdown, a figure |
 //! | [`directory`] | `cli` | all of that as files |
 //! | [`cost`] | `cli` | what was measured of time: tables, JSON Lines, pictures |
 //!
@@ -33,6 +34,8 @@ pub mod figure;
 pub mod grain;
 #[cfg(feature = "cli")]
 pub mod growth;
+#[cfg(feature = "cli")]
+pub mod hashes;
 #[cfg(feature = "cli")]
 pub mod html;
 #[cfg(feature = "cli")]

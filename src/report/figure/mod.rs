@@ -16,6 +16,7 @@
 //! | [`evidence`] | what a claim saw |
 //! | [`front`] | a value against the time that it costs, and the points that no other one beats |
 //! | [`growth`] | costs against a size |
+//! | [`hashes`] | time, quality and flicker of each hash |
 //! | [`kill_matrix`] | which claims reject which specimens |
 //! | [`price`] | nanoseconds a threshold, and how far its law is from the uniform one |
 //! | [`until_failure`] | how many samples it takes until a claim fails |
@@ -26,6 +27,7 @@ pub mod distance;
 pub mod evidence;
 pub mod front;
 pub mod growth;
+pub mod hashes;
 pub mod kill_matrix;
 pub mod noise;
 pub mod planes;
@@ -35,4 +37,5 @@ pub mod until_failure;
 pub mod validity;
 
 mod raster;
+mod rows;
 mod style;

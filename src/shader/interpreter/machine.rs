@@ -43,6 +43,11 @@ impl<'a> Machine<'a> {
         Self { registers, model, counts, wanted, isa: Isa::best(), broken: 0, continued: 0, steps_left: 0 }
     }
 
+    /// How many of the steps of the last run were not taken.
+    pub(super) const fn steps_left(&self) -> u64 {
+        self.steps_left
+    }
+
     #[inline(always)]
     pub(super) fn column(&self, register: Register) -> &Column {
         &self.registers[register as usize]

@@ -114,12 +114,7 @@ impl Program {
         let blocks = lanes.div_ceil(LANES);
         let mut words = vec![[0; LANES]; blocks * width];
         let run = |machine: &mut Machine<'_>, block: usize, words: &mut [[u32; LANES]]| {
-            for (&register, column) in self.arguments.iter().zip(columns) {
-                column.load(block * LANES, lanes, machine.column(register));
-                if column.kind() == Kind::F32 {
-                    machine.round(register);
-                }
-            }
+            self.load(machine, columns, block * LANES, lanes);
             let beyond = LANES.saturating_sub(lanes - block * LANES);
             machine.wanted = Lanes::MAX >> beyond;
             machine.run(&self.body, self.steps)?;
@@ -151,6 +146,32 @@ impl Program {
             Values::collect(kind, words.copied())
         };
         Ok(self.result.iter().enumerate().map(column).collect())
+    }
+
+    /// Counts the operations that one run takes where the lanes of `columns` are one: arithmetic, comparisons, conversions and assignments of
+    /// variables alike, those of loops as often as they are run.
+    ///
+    /// # Errors
+    /// As [`Program::run`].
+    pub fn operations(&self, columns: &[Column<'_>], model: &DeviceModel) -> Result<u64, Stopped> {
+        self.check(columns, 1)?;
+        let mut machine = self.machine(model);
+        self.load(&machine, columns, 0, 1);
+        machine.wanted = 1;
+        machine
+            .run(&self.body, self.steps)
+            .map_err(|endless| Stopped::Endless { span: endless.span, steps: self.steps })?;
+        Ok(self.steps - machine.steps_left())
+    }
+
+    /// Writes arguments from lane `start` on into their registers.
+    fn load(&self, machine: &Machine<'_>, columns: &[Column<'_>], start: usize, lanes: usize) {
+        for (&register, column) in self.arguments.iter().zip(columns) {
+            column.load(start, lanes, machine.column(register));
+            if column.kind() == Kind::F32 {
+                machine.round(register);
+            }
+        }
     }
 
     /// The registers of a thread, constants filled in.

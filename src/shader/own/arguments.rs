@@ -172,6 +172,27 @@ impl OwnShader {
         ShaderError { file: self.file.clone(), place: None, message, is_absent: false }
     }
 
+    /// Counts the operations that the function, made ready by [`OwnShader::program`], takes for a fragment: arithmetic,
+    /// comparisons, conversions and assignments of variables alike, and a sine as one.
+    ///
+    /// # Errors
+    ///
+    /// [`ShaderError`]: a loop that does not end, with its place.
+    pub fn operations(&self, program: &Program, fragment: Fragment) -> Result<u64, ShaderError> {
+        let values = self.columns(&[fragment]);
+        let columns: Vec<_> = values.iter().map(as_column).collect();
+        program.operations(&columns, &DeviceModel::ACCURATE).map_err(|stopped| self.stopped(&stopped))
+    }
+
+    /// Says where and why a run ended.
+    fn stopped(&self, stopped: &Stopped) -> ShaderError {
+        let place = match *stopped {
+            Stopped::Endless { span, .. } => self.place(span),
+            Stopped::Arguments(_) => None,
+        };
+        ShaderError { file: self.file.clone(), place, message: stopped.to_string(), is_absent: false }
+    }
+
     /// Runs the function; its result is the last of the values that come back.
     fn run(
         &self,
@@ -181,16 +202,9 @@ impl OwnShader {
     ) -> Result<Option<Values>, ShaderError> {
         let values = self.columns(fragments);
         let columns: Vec<_> = values.iter().map(as_column).collect();
-        let fail = |place, message| ShaderError { file: self.file.clone(), place, message, is_absent: false };
         match program.run(&columns, fragments.len(), model) {
             Ok(mut results) => Ok(results.pop()),
-            Err(stopped) => {
-                let place = match stopped {
-                    Stopped::Endless { span, .. } => self.place(span),
-                    Stopped::Arguments(_) => None,
-                };
-                Err(fail(place, stopped.to_string()))
-            }
+            Err(stopped) => Err(self.stopped(&stopped)),
         }
     }
 
