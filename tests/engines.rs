@@ -1,7 +1,8 @@
 //! `docs/engines.md` and `examples/engines`: the threshold in the files of engines, ready to paste. Each is written by this test
 //! (`HASHED_ALPHA_BLESS=all cargo test --test main engines::`), and each is put on trial as it stands.
 
-use hashed_alpha::check::{cause, shaders};
+use hashed_alpha::check::shaders;
+use hashed_alpha::scene::{Fragment, Scene};
 use hashed_alpha::shader::export::{Language, export};
 use hashed_alpha::shader::interpreter::DeviceModel;
 use hashed_alpha::shader::own::{self, Options};
@@ -236,7 +237,7 @@ fn folder() -> &'static Path {
 impl Engine {
     /// The whole file.
     fn text(&self) -> String {
-        let exported = export(Robust::new(Variant::Isotropic), self.language).unwrap().into_bytes();
+        let exported = export(Robust::default(), self.language).unwrap().into_bytes();
         let exported = String::from_utf8(exported).unwrap();
         // An engine says these itself.
         let is_own = |line: &&str| !line.starts_with("#version") && !line.starts_with("precision ");
@@ -250,13 +251,14 @@ const PAGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/engines.md");
 fn page(read: &[(&Engine, Option<own::OwnShader>)]) -> String {
     let mut page = "# In your engine
 
-Each file of [examples/engines](../examples/engines) is ready to paste: the robust threshold of Listing 1 as `hashed-alpha shader` writes it, with the test that an
+Each file of [examples/engines](../examples/engines) is ready to paste: the [recommended threshold](recommendation.md) as `hashed-alpha shader` writes it, with the test that an
 engine wants behind it. They are written and tried by a test of this repository, as they stand; the engines themselves do not
 run there. Another one (`--variant anisotropic`, a hash, the size of the noise) is written by `hashed-alpha shader`, in the same
 languages, and takes the place of everything above the test.
 
 The command is the same for what you have there today, in your own words: name your function, or `main`, and what holds the
-position ([your shader](your_shader.md)). For a port of a listing leave out `--nested-phase`, and say `--suite paper`.
+position ([your shader](your_shader.md)). For a port of a listing say `--suite paper`; for another
+threshold than ours say `--nested-phase` and `--join` where they hold, as the first lines of ours do.
 
 "
     .to_owned();
@@ -277,7 +279,7 @@ position ([your shader](your_shader.md)). For a port of a listing leave out `--n
             if said.is_empty() { "every name goes without saying".to_owned() } else { said.join("; ") };
         write!(
             page,
-            "## {name}\n\n```text\nhashed-alpha check examples/engines/{file} --function {function} --nested-phase\n```\n\n\
+            "## {name}\n\n```text\nhashed-alpha check examples/engines/{file} --function {function}\n```\n\n\
              Where it goes: {place}. What the program takes for what: {said}.\n\nBehind the threshold, [{file}](../examples/engines/{file}) has\n\n\
              ```{fence}\n{}\n```\n\n",
             after.trim()
@@ -288,7 +290,7 @@ position ([your shader](your_shader.md)). For a port of a listing leave out `--n
 }
 
 #[test]
-fn every_file_is_written_and_follows_the_listing() {
+fn every_file_is_written_and_has_the_recommended_thresholds() {
     let is_blessing = std::env::var_os("HASHED_ALPHA_BLESS").is_some();
     let mut read = Vec::new();
     for engine in &ENGINES {
@@ -310,11 +312,22 @@ fn every_file_is_written_and_follows_the_listing() {
             Err(error) => panic!("{error}"),
         };
         if let Some(shader) = &shader {
-            let mut subject =
+            let subject =
                 shaders::interpreted(engine.file, shader, DeviceModel::ACCURATE, Variant::Isotropic).unwrap();
-            subject.nested_phase = true;
-            let examination = cause::examine(&subject);
-            assert!(examination.follows, "{}: {:?}", engine.file, examination.found);
+            let fragments: Vec<Fragment> = Scene::all()[0]
+                .footprints()
+                .step_by(61)
+                .map(|f| Fragment::from(f.cast::<f32>().cast()))
+                .collect();
+            let found = subject.thresholds(&fragments);
+            let is_other = |(fragment, found): &(&Fragment, &f64)| {
+                let ours = Robust::default().threshold::<f32>(&fragment.footprint.cast()).expect("finite");
+                // A test of an alpha is halved to its threshold.
+                found.is_nan() || (f64::from(ours) - **found).abs() > 1.0e-6
+            };
+            assert!(found.len() > 1000, "{}", found.len());
+            let others = fragments.iter().zip(&found).filter(is_other).count();
+            assert_eq!(others, 0, "{}: of {} thresholds", engine.file, found.len());
         }
         read.push((engine, shader));
     }

@@ -1,7 +1,7 @@
-// hashed-alpha 0.1.0: Listing 1 with every repair (not in the paper), join interpolate, hash mm4, noise of 1 pixels
+// hashed-alpha 0.1.0: Listing 1 with every repair (not in the paper), join inherit, hash lowbias-linear, noise of 1 pixels
 // After C. Wyman and M. McGuire, "Improved Alpha Testing Using Hashed Sampling" (2017).
 // Discard a fragment where its alpha is below threshold(position, dpdx, dpdy).
-// Verify it: hashed-alpha check FILE --nested-phase
+// Verify it: hashed-alpha check FILE --nested-phase --join inherit
 //   position: position on the surface, object units
 //   dpdx: its change to the next pixel on the right, object units per pixel
 //   dpdy: its change to the next pixel along screen y, object units per pixel
@@ -37,34 +37,37 @@ fn to_word(x: f32) -> u32 {
     return select(magnitude, 0u - magnitude, negative);
 }
 
+// The words of a cell: its coordinates and its octave.
+fn words(cell: Cell) -> vec4<u32> {
+    return vec4<u32>(to_word(cell.index.x), to_word(cell.index.y), to_word(cell.index.z), cell.octave);
+}
+
 // Maps a word to (2k + 1) / 2^24 with k its upper 23 bits: in [2^-24, 1 - 2^-24], never 0 and never 1.
 fn open_lattice(word: u32) -> f32 {
     return f32(2u * (word >> 9u) + 1u) * 0x1p-24f;
 }
 
-fn rotated_left(word: u32, places: u32) -> u32 {
-    return (word << places) | (word >> (32u - places));
+// The sum of words times weights.
+fn weighted_sum(words: vec4<u32>, weights: vec4<u32>) -> u32 {
+    let products = words * weights;
+    return products.x + products.y + products.z + products.w;
 }
 
-fn murmur_step(state: u32, word: u32) -> u32 {
-    let mixed = state ^ (rotated_left(word * 0xcc9e2d51u, 15u) * 0x1b873593u);
-    return rotated_left(mixed, 13u) * 5u + 0xe6546b64u;
+// The four words as one. Not in the paper.
+fn linear_word(words: vec4<u32>) -> u32 {
+    return weighted_sum(words, vec4<u32>(0xc71f15dfu, 0xd2881b55u, 0x6290e857u, 0x6a46fe4fu));
 }
 
-// The end of MurmurHash3 (x86, 32 bits) over four words.
-fn murmur_end(state: u32) -> u32 {
-    var h = state ^ 16u;
-    h = (h ^ (h >> 16u)) * 0x85ebca6bu;
-    h = (h ^ (h >> 13u)) * 0xc2b2ae35u;
+// `lowbias32` of hash-prospector (Wellons 2018). Not in the paper.
+fn lowbias(word: u32) -> u32 {
+    var h = (word ^ (word >> 16u)) * 0x7feb352du;
+    h = (h ^ (h >> 15u)) * 0x846ca68bu;
     return h ^ (h >> 16u);
 }
 
-// MurmurHash3 (x86, 32 bits, seed 0) over x, y, z and the octave. Not in the paper.
+// `lowbias32` of a sum of the words. Not in the paper.
 fn hash_cell(cell: Cell) -> f32 {
-    var h = murmur_step(0u, to_word(cell.index.x));
-    h = murmur_step(h, to_word(cell.index.y));
-    h = murmur_step(h, to_word(cell.index.z));
-    return open_lattice(murmur_end(murmur_step(h, cell.octave)));
+    return open_lattice(lowbias(linear_word(words(cell))));
 }
 
 // The longest side of a cell stays between these, where neither it nor its inverse nor an index overflows.
@@ -141,30 +144,79 @@ fn robust_scales(position: vec3<f32>, dpdx: vec3<f32>, dpdy: vec3<f32>, hash_sca
     return by_exponent(1.0 / floored(side, position));
 }
 
-// Eq. 2 without a division by zero: in [0, 1] and non-decreasing in x for every x and lerp_factor in [0, 1].
-fn cdf(x: f32, lerp_factor: f32) -> f32 {
-    let a = min(lerp_factor, 1.0 - lerp_factor);
-    let b = 1.0 - a;
-    let from_top = 1.0 - x;
-    if x < a {
-        return 0.5 * x * ((x / a) / b);
-    }
-    if from_top < a {
-        return 1.0 - 0.5 * from_top * ((from_top / a) / b);
-    }
-    return (x - 0.5 * a) / b;
+// True where a cell takes its finer octave: chosen by its own hash.
+fn is_fine(position: vec3<f32>, scales: Scales) -> bool {
+    var coarse = nested_cell(position, scales.octave);
+    coarse.octave = coarse.octave ^ 0x6a09e667u;
+    return scales.fraction.x > hash_cell(coarse);
 }
 
-// The paper's join: a linear mixture, made uniform by Eq. 2.
-fn interpolated(position: vec3<f32>, scales: Scales, weight: f32) -> f32 {
-    let hash_coarse = hash_cell(nested_cell(position, scales.octave));
-    let hash_fine = hash_cell(nested_cell(position, scales.octave + 1));
-    let mixture = (1.0 - weight) * hash_coarse + weight * hash_fine;
-    return cdf(mixture, weight);
+// Where the intervals of an octave begin to be counted so that each has the intervals 2 n and 2 n + 1 of the next octave as its
+// children, in two's complement: nested cells begin at alternating thirds, whose digits alternate.
+fn origin(octave: vec3<i32>) -> vec3<u32> {
+    // Twice as much where the octave is odd; some languages choose between floats only.
+    return vec3<u32>(0x55555555u) << (bitcast<vec3<u32>>(octave) & vec3<u32>(1u));
 }
 
+// The index of an ancestor of an interval, so many octaves above.
+fn ancestor(index: vec3<i32>, begin: vec3<u32>, octaves: vec3<u32>) -> vec3<i32> {
+    let beyond = begin & ((vec3<u32>(1u) << octaves) - vec3<u32>(1u));
+    return (index + bitcast<vec3<i32>>(beyond)) >> octaves;
+}
+
+// The pair of a cell whose intervals have these numbers, 0 to 3: two opposite corners of a parent have the same.
+fn pair(counted: vec3<u32>) -> u32 {
+    return ((counted.x ^ counted.z) & 1u) | (((counted.y ^ counted.z) & 1u) << 1u);
+}
+
+// A word of a parent, from the numbers of its intervals: the two upper bits say which pair keeps its threshold, the next ones how
+// the others are ordered.
+fn order_of_pairs(counted: vec3<u32>, octave: i32) -> u32 {
+    let combined = (counted.x & 0x7ffu) | ((counted.y & 0x7ffu) << 11u) | (counted.z << 22u);
+    let turned = (bitcast<u32>(octave) << 16u) | (bitcast<u32>(octave) >> 16u);
+    let mixed = (combined ^ (combined >> 16u) ^ turned) * 0x7feb352du;
+    return (mixed ^ (mixed >> 15u)) * 0x846ca68bu;
+}
+
+// True for the pair that keeps the threshold of its parent.
+fn keeps(order: u32, of_pair: u32) -> bool {
+    return (order >> 30u) == of_pair;
+}
+
+// The share that a pair has of [0, 1]: 0 for all of it, 1, 2 or 3 for a third.
+fn share_of_pair(order: u32, of_pair: u32) -> u32 {
+    let turn = (((order >> 14u) & 0xffffu) * 3u) >> 16u;
+    let turned = (of_pair ^ (order >> 30u)) + turn;
+    return select(select(turned, turned - 3u, turned > 3u), 0u, keeps(order, of_pair));
+}
+
+// The threshold by a share, from the hash of the parent: the two cells of a pair have values half a unit apart.
+fn of_share(share: u32, upper: bool, hash: f32) -> f32 {
+    let value = select(hash, select(hash - 0.5, hash + 0.5, hash < 0.5), upper);
+    let below = select(0.0, 2.0, share == 3u) + select(0.0, 1.0, share == 2u);
+    return select((below + value) * 0.33333334, value, share == 0u);
+}
+
+// The threshold of a cell of one octave, from the first parent that does not keep that of its own parent; four are asked at most.
+fn inherited(cell: vec3<i32>, octave: i32) -> f32 {
+    let begin = origin(vec3<i32>(octave));
+    var counted = bitcast<vec3<u32>>(cell) + begin;
+    var climbed = 0u;
+    var order = order_of_pairs(counted >> vec3<u32>(1u), octave - 1);
+    while climbed < 3u && keeps(order, pair(counted)) {
+        climbed += 1u;
+        counted = counted >> vec3<u32>(1u);
+        order = order_of_pairs(counted >> vec3<u32>(1u), octave - 1 - i32(climbed));
+    }
+    let index = vec3<f32>(ancestor(cell, begin, vec3<u32>(climbed + 1u)));
+    let hash = hash_cell(Cell(index, bitcast<u32>(octave - 1 - i32(climbed))));
+    return of_share(share_of_pair(order, pair(counted)), (counted.z & 1u) == 1u, hash);
+}
+
+// The threshold of the cell of one of two octaves, which its coarse cell chooses. Not in the paper.
 fn joined(position: vec3<f32>, scales: Scales) -> f32 {
-    return interpolated(position, scales, scales.fraction.x);
+    let octave = scales.octave + select(0, 1, is_fine(position, scales));
+    return inherited(vec3<i32>(nested_cell(position, octave).index), octave.x);
 }
 
 // True for every f32 but NaN and the infinities. By bits: compilers may fold `x != x` to false.
