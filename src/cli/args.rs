@@ -343,7 +343,7 @@ Examples:
   hashed-alpha hashes
   hashed-alpha hashes --measure                            every hash, some ten minutes
   hashed-alpha hashes mm4 lowbias-linear --measure --doublings 2
-  hashed-alpha check hash:wyhash32 --until-failure         one hash, claim by claim")]
+  hashed-alpha check hash:mm4 --until-failure              one hash, claim by claim")]
 pub struct HashesArgs {
     /// Which; all when none is given
     #[arg(value_name = "HASH", value_parser = one_of(HashKind::ALL, HashKind::name))]
