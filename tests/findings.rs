@@ -1,5 +1,6 @@
 //! `docs/findings.md` has a command in every row, and what the command names is there.
 
+use crate::architecture::sources;
 use hashed_alpha::check::claims;
 use hashed_alpha::render::gallery;
 use std::path::Path;
@@ -37,7 +38,9 @@ fn every_row_has_a_number_and_a_command_that_names_what_there_is() {
                 let (file, test) = name.split_once("::").expect("a file and a test of it");
                 assert!(text(&format!("tests/{file}.rs")).contains(test), "{command}");
             }
-            ["cargo", "test", "--lib", _] => {}
+            ["cargo", "test", "--lib", name] => {
+                assert!(sources().values().any(|text| text.contains(name)), "{command}");
+            }
             ["hashed-alpha", "render", scene] => assert!(gallery::find(scene).is_some(), "{command}"),
             ["hashed-alpha", "check" | "grain" | "cost", ..] => {
                 for pair in words.windows(2).filter(|pair| pair[0] == "--only") {

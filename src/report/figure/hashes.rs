@@ -31,7 +31,7 @@ pub fn hashes(title: &str, all: &[Hashed]) -> String {
     let names: Vec<&str> = all.iter().map(|hash| hash.name.as_str()).collect();
     let marks = |value: &dyn Fn(&Hashed) -> f64| {
         let colour = |hash: &Hashed| if hash.rejected { VERMILLION } else { BLUE };
-        all.iter().map(|hash| Some((value(hash), colour(hash)))).collect()
+        all.iter().map(|hash| (value(hash), colour(hash))).collect()
     };
     let [room, of_times, of_samples, of_flips] = WIDTHS;
     let columns = [

@@ -30,7 +30,7 @@ pub fn price(title: &str, rows: &[Priced], chance: f64) -> String {
     let names: Vec<&str> = rows.iter().map(|row| row.name.as_str()).collect();
     let marks = |value: &dyn Fn(&Priced) -> f64| {
         let colour = |row: &Priced| if row.distance > chance { VERMILLION } else { BLUE };
-        rows.iter().map(|row| Some((value(row), colour(row)))).collect()
+        rows.iter().map(|row| (value(row), colour(row))).collect()
     };
     let logarithms = |read: fn(&Priced) -> f64| rows.iter().map(move |row| libm::log10(read(row)));
     let times = range_of(logarithms(|row| row.ns), 0.15);

@@ -14,8 +14,8 @@ pub(super) struct Column<'t> {
     pub axis: Axis<'t>,
     /// How wide its chart is; the last one has what is left.
     pub width: i32,
-    /// The value of each row and the colour of its mark; nothing where it has none.
-    pub marks: Vec<Option<(f64, RGBColor)>>,
+    /// The value of each row and the colour of its mark.
+    pub marks: Vec<(f64, RGBColor)>,
     /// Where a line is drawn from top to bottom.
     pub line: Option<f64>,
 }
@@ -60,10 +60,9 @@ pub(super) fn rows(
     })
 }
 
-fn marks(chart: &mut Chart<'_>, marks: &[Option<(f64, RGBColor)>]) -> Drawn {
+fn marks(chart: &mut Chart<'_>, marks: &[(f64, RGBColor)]) -> Drawn {
     let start = chart.x_range().start;
-    (0..marks.len() as i32).rev().zip(marks).try_for_each(|(height, mark)| {
-        let Some((value, colour)) = *mark else { return Ok(()) };
+    (0..marks.len() as i32).rev().zip(marks).try_for_each(|(height, &(value, colour))| {
         let place = (value, f64::from(height));
         curve(chart, [(start, place.1), place], FRAME, 2)?;
         chart.plotting_area().draw(&Circle::new(place, 10, colour.filled()))
