@@ -56,6 +56,8 @@ mod shipped;
 #[cfg(feature = "render")]
 mod extension_effects;
 #[cfg(feature = "render")]
+mod gltf_standard;
+#[cfg(feature = "render")]
 mod render;
 #[cfg(feature = "render")]
 mod render_assets;

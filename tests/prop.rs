@@ -179,6 +179,7 @@ proptest! {
             prop_assert_eq!(masks, [expected; 6]);
             for threshold in [
                 screen_door::fixed([words[0], words[1]]),
+                screen_door::bayer([words[0], words[1]]),
                 screen_door::random_mask([words[0], words[1]], words[2]),
                 screen_door::randomised([words[0], words[1]], words[2]),
             ] {

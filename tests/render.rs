@@ -66,6 +66,7 @@ fn takes() -> Vec<(SceneFile, Effects)> {
         fade_in = { full_noise_lod = 3.0, anisotropy = true }
         premultiplied = {}
         limited_level = { level = 4.0 }
+        level_bias = { levels = -0.7 }
         supersampling = { samples = 2 }
         jitter = { frames = 4 }
         conservative = {}
@@ -80,6 +81,7 @@ fn takes() -> Vec<(SceneFile, Effects)> {
         "alpha_to_coverage = { samples = 5, pattern = 'pixel' }",
         "alpha_to_coverage = { samples = 6, pattern = 'random' }\nstochastic = {}",
         "screen_door = { mask = 'fixed' }",
+        "screen_door = { mask = 'bayer' }",
         "screen_door = { mask = 'random' }",
         "screen_door = { mask = 'hashed' }",
         "stipple = { density = 'high' }\nfixed = { threshold = 0.3 }",
@@ -292,7 +294,7 @@ fn a_still_scene_keeps_its_samples_unless_its_thresholds_change() {
     let file = SceneFile { frames: 4.try_into().expect("not zero"), ..small("layers") };
     let flips = |source: &str, pattern: &str| {
         let text = format!("{source}\nalpha_to_coverage = {{ samples = 8, pattern = '{pattern}' }}");
-        drawn(&with(&file, toml::from_str(&text).expect("known effects"))).takes[0].metrics["flips"]
+        drawn(&with(&file, toml::from_str(&text).expect("known effects"))).takes[0].metrics["flips.pixel"]
     };
     for pattern in ["decorrelated", "random"] {
         for source in ["hashed = {}", "robust = {}", "robust = {}\njitter = { frames = 1 }"] {
@@ -470,9 +472,11 @@ fn table(name: &str, words: [u32; 3]) -> String {
     let spaces = ["object", "deformed", "part", "world", "texture", "eye", "screen", "device"];
     let patterns = ["regular", "jittered", "decorrelated", "independent", "hardware", "random", "pixel"];
     let inner = match name {
-        "premultiplied" | "finest_level" | "level_threshold" | "scaled_alpha" | "stochastic"
-        | "test_then_blend" | "naive_blend" => String::new(),
+        "premultiplied" | "finest_level" | "level_threshold" | "stochastic" | "test_then_blend"
+        | "naive_blend" => String::new(),
         "supersampling" => format!("samples = {}", words[0] % 3 + 1),
+        "scaled_alpha" => format!("interpolated = {}", words[0].is_multiple_of(2)),
+        "level_bias" => format!("levels = {:.1}", 4.0 * share(words[0]) - 3.0),
         "limited_level" => format!("level = {:.1}", 6.0 * share(words[0])),
         "scaled_texels" => format!("radius = {}", words[0] % 3),
         "fixed" => format!("threshold = {}", share(words[0])),
@@ -481,7 +485,7 @@ fn table(name: &str, words: [u32; 3]) -> String {
             let join = of(&["interpolate", "copula", "dithered"], words[0] / 7);
             format!("hash = {}, hash_scale = {scale}, variant = {}, join = {join}", hash(), variant(false))
         }
-        "screen_door" => format!("mask = {}", of(&["fixed", "random", "hashed"], words[0])),
+        "screen_door" => format!("mask = {}", of(&["fixed", "bayer", "random", "hashed"], words[0])),
         "stipple" => format!("density = {}", of(&["high", "low"], words[0])),
         "coordinates" => format!("space = {}", of(&spaces, words[0])),
         "independent" => format!("frames = {frames}, by = {}", of(&["offset", "word"], words[1])),
@@ -499,7 +503,8 @@ fn table(name: &str, words: [u32; 3]) -> String {
                 words[2].is_multiple_of(2)
             )
         }
-        "sharpened" => format!("cutoff = {}", share(words[0])),
+        // At its cutoff a surface is kept by half of the samples, so that a cutoff of 1 halves what is opaque.
+        "sharpened" => format!("cutoff = {}", 0.999 * share(words[0])),
         "conservative" => format!("corrected = {}", words[0].is_multiple_of(2)),
         "foveated" => format!("gaze = [5.0, 9.0], radius = 3.0, slope = {}", share(words[0])),
         "occlusion" => {
@@ -638,4 +643,62 @@ fn a_cycle_of_frames_closes() {
             }
         }
     }
+}
+
+/// One alpha everywhere, and a camera that goes on by half a pixel a frame, or by a whole one.
+fn veil(step: f64) -> Study {
+    let text = format!(
+        "name = 'veil'\nresolution = [96, 96]\nframes = 5\n[camera]\neye = [0.3, 0.2, 5.0]\ntarget = [0.0, 0.0, 0.0]\n\
+         motion = {{ translate = [{step}, 0.0] }}\n[[texture]]\nname = 't'\nconstant = {{ alpha = 0.5 }}\n[[surface]]\ntexture = 't'\n\
+         card = {{ size = [8.0, 8.0] }}\n[[effects]]\nname = 'object'\nrobust = {{}}\n\
+         [[effects]]\nname = 'screen'\nrobust = {{}}\ncoordinates = {{ space = 'screen' }}\n\
+         [[effects]]\nname = 'mask'\nscreen_door = {{ mask = 'fixed' }}\n"
+    );
+    drawn(&ready(read::read(&text, "veil.toml").unwrap_or_else(|error| panic!("{error}"))))
+}
+
+/// Noise that is locked to the screen never changes a pixel, and slides over the surface. Of a point that moves half a pixel a frame
+/// half is compared with the same pixel and half with the next, of an alpha of one half that is a quarter; by a whole pixel, a half.
+#[test]
+fn noise_that_is_locked_to_the_screen_is_not_called_stable() {
+    let numbers = |study: &Study, name: &str| {
+        let take = study.takes.iter().find(|take| take.plan.name == name).expect("a take");
+        ["flips.pixel", "flips.surface"].map(|number| take.metrics[number])
+    };
+    for (step, share) in [(0.5, 0.25), (1.0, 0.5)] {
+        let study = veil(step);
+        let [pixel, surface] = numbers(&study, "screen");
+        assert!(pixel == 0.0 && (surface - share).abs() < 0.03, "{step}: {pixel} {surface}");
+        let [pixel, surface] = numbers(&study, "object");
+        assert!(pixel > 0.2, "{step}: {pixel}");
+        // After a whole pixel every point is where a pixel has its middle again.
+        assert!(
+            if step == 1.0 { surface < 0.02 } else { (surface - pixel).abs() < 0.03 },
+            "{step}: {pixel} {surface}"
+        );
+        let locked: Vec<&str> =
+            study.notes.iter().map(|note| note.split(':').next().expect("a name")).collect();
+        assert_eq!(locked, ["screen", "mask"], "{:?}", study.notes);
+    }
+    assert_eq!(veil(0.0).notes, Vec::<String>::new());
+}
+
+/// Near, a card of sharp leaves is right under the alpha test; from afar it vanishes, and the planner looks there, too.
+#[test]
+fn the_planner_looks_from_every_distance() {
+    let planned = |distance: &str| {
+        let text = format!(
+            "name = 'near'\neffects = 'auto'\nresolution = [128, 128]\n[camera]\neye = [0.1, 0.2, 2.0]\ntarget = [0.0, 0.0, 0.0]\n\
+             [[texture]]\nname = 't'\nleaves = {{ count = 8, length = 0.3 }}\n[[surface]]\ntexture = 't'\n\
+             card = {{ size = [1.4, 1.4] }}\n{distance}"
+        );
+        let scene = ready(read::read(&text, "near.toml").unwrap_or_else(|error| panic!("{error}")));
+        let choice =
+            hashed_alpha::render::measure::auto::choose(&scene, &scene.textures(&Default::default()));
+        (choice.effects.fixed.is_some(), choice.reasons[0].clone())
+    };
+    let (fixed, reason) = planned("");
+    assert!(fixed && !reason.contains("times the distance"), "{reason}");
+    let (fixed, reason) = planned("[distance]\nfactors = [4.0, 40.0]");
+    assert!(!fixed && reason.contains("from 40 times the distance"), "{reason}");
 }

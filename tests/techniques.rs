@@ -29,6 +29,11 @@ const TESTED: &[(&str, &str, &str)] = &[
         "scaled_alphas_pass_as_under_the_threshold_of_their_level",
     ),
     (
+        "interpolated-scaled-alpha",
+        "render::effect::scaled_alpha",
+        "interpolated_alpha_keeps_the_share_of_thin_strands",
+    ),
+    (
         "texel-threshold",
         "technique::prior_work::level_threshold",
         "a_factor_for_each_texel_passes_as_the_threshold_of_each_texel",
@@ -38,6 +43,7 @@ const TESTED: &[(&str, &str, &str)] = &[
         "technique::prior_work::finest_level",
         "the_finest_level_keeps_the_share_of_passing_texels",
     ),
+    ("level-bias", "render::effect::level_bias", "a_bias_moves_the_level_and_a_limit_still_holds"),
     ("limited-level", "technique::prior_work::finest_level", "levels_up_to_the_limit_are_read_as_they_are"),
     (
         "naive-blend",
@@ -104,6 +110,7 @@ const TESTED: &[(&str, &str, &str)] = &[
     ("random-masks", "threshold::stage::coverage", "random_sets_are_evenly_drawn"),
     ("pixel-masks", "threshold::stage::coverage", "pixels_get_patterns_of_their_own"),
     ("screen-door", "threshold::stage::screen_door", "screen_door.masks"),
+    ("bayer-screen-door", "threshold::stage::screen_door", "the_larger_dither_is_that_of_bayer"),
     (
         "random-screen-door",
         "threshold::stage::screen_door",

@@ -32,8 +32,13 @@ pub fn run(args: &RenderArgs) -> Result<Ending, Failure> {
             let (scene, take) = (&scene.file.name, &take.plan.name);
             output::remark(
                 "note",
-                format_args!("{scene}: {take}: no surface is seen; is the camera at the right place?"),
+                format_args!(
+                    "{scene}: {take}: no surface is seen; is the camera at the right place, and on the side from which one-sided materials are seen?"
+                ),
             );
+        }
+        for note in &study.notes {
+            output::remark("note", format_args!("{}: {note}", scene.file.name));
         }
         let text = json(&scene, &study).map_err(|error| making("numbers", error))?;
         write(&args.out, &scene, &study, &text, args.sequence)?;
@@ -56,7 +61,7 @@ pub fn run(args: &RenderArgs) -> Result<Ending, Failure> {
 pub fn bar(scene: &Scene) -> ProgressBar {
     let bar = ProgressBar::new(0).with_message(scene.file.name.clone());
     bar.set_style(
-        ProgressStyle::with_template("{msg} {wide_bar} {pos}/{len}")
+        ProgressStyle::with_template("{msg} {wide_bar} {pos}/{len} pictures, {eta} left")
             .unwrap_or_else(|_| ProgressStyle::default_bar()),
     );
     bar

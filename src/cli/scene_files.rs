@@ -2,6 +2,7 @@
 
 use super::args::SceneArgs;
 use super::failure::{Failure, told};
+use super::output;
 use hashed_alpha::render::gallery;
 use hashed_alpha::render::gallery::GALLERY;
 use hashed_alpha::render::scene_file::load::{Scene, prepare};
@@ -46,17 +47,21 @@ pub fn read_all(args: &SceneArgs) -> Result<Vec<Read>, Failure> {
 }
 
 impl Read {
-    /// Reads all that it names.
+    /// Reads all that it names, and tells what of that is not simulated.
     pub fn prepare(self) -> Result<Scene, Failure> {
         let Self { file, typed, text } = self;
         let folder = match gallery::find(&typed) {
             Some(_) => Path::new(""),
             None => Path::new(&typed).parent().unwrap_or(Path::new("")),
         };
-        prepare(file, folder).map_err(|error| {
+        let scene = prepare(file, folder).map_err(|error| {
             let key = error.key();
             Failure::Scene(read::error_at(&text, &typed, &key, told(&error)))
-        })
+        })?;
+        for note in &scene.notes {
+            output::remark("note", format_args!("{}: {note}", scene.file.name));
+        }
+        Ok(scene)
     }
 }
 

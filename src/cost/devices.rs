@@ -102,7 +102,7 @@ mod tests {
 
     #[test]
     fn every_row_is_an_addition_to_one_that_is_listed_and_a_valid_shader() {
-        assert_eq!(effects().count(), 22);
+        assert_eq!(effects().count(), 23);
         for Effect { name, over, pipeline, .. } in effects() {
             assert!(effects().any(|effect| effect.name == *over), "{name}");
             assert_eq!(effects().filter(|effect| effect.name == *name).count(), 1);

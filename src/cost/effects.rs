@@ -69,6 +69,7 @@ pub(super) const EFFECTS: &[Effect] = &[
     row("hashed, 8 decorrelated samples", "Eq. 9", "hashed", sampled(HASHED, SamplePattern::Decorrelated)),
     row("hashed, 8 shuffled samples", "§3 (Enderton et al. 2010)", "hashed", sampled(HASHED, SamplePattern::Shuffled)),
     row("screen door, fixed", "§3", "fixed", Pipeline::of(Source::ScreenDoor(ScreenDoor::Fixed))),
+    row("screen door, 8 x 8", "Bayer 1973", "fixed", Pipeline::of(Source::ScreenDoor(ScreenDoor::Bayer))),
     row("screen door, random", "§3", "fixed", Pipeline::of(Source::ScreenDoor(ScreenDoor::RandomMask(0)))),
     row("screen door, hashed", "§8.1", "fixed", Pipeline::of(Source::ScreenDoor(ScreenDoor::Randomised))),
     row("stipple", "Ols 2009", "fixed", Pipeline::of(Source::Stipple { density: Density::High, kept: FIXED_THRESHOLD as f32 })),

@@ -185,6 +185,7 @@ struct Whole<'a> {
     seed: u64,
     resolution: [u32; 2],
     frames: u32,
+    notes: Vec<&'a str>,
     takes: Vec<One<'a>>,
     expected: Vec<Expected<'a>>,
 }
@@ -226,6 +227,7 @@ pub fn json(scene: &Scene, study: &Study) -> serde_json::Result<String> {
         seed: scene.file.seed,
         resolution: scene.file.resolution,
         frames: scene.file.frames.get(),
+        notes: scene.notes.iter().chain(&study.notes).map(String::as_str).collect(),
         takes: takes.collect(),
         expected: study.checked.iter().map(|c| Expected { holds: c.holds, text: &c.text }).collect(),
     })

@@ -364,6 +364,10 @@ impl Text {
                 add!(self, "coverage_regular", "screen_door/ordered");
                 "regular(ordered(vec2<u32>(pixel)), 16u)".to_owned()
             }
+            Source::ScreenDoor(ScreenDoor::Bayer) => {
+                add!(self, "coverage_regular", "screen_door/bayer");
+                "regular(bayer(vec2<u32>(pixel)), 64u)".to_owned()
+            }
             Source::ScreenDoor(ScreenDoor::RandomMask(seed)) => {
                 add!(
                     self,

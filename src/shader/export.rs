@@ -330,6 +330,9 @@ fn described_source(source: Source, scale: HashScale) -> Vec<String> {
         Source::Stochastic => "stochastic alpha testing (section 4)".to_owned(),
         Source::Fixed(_) => "the traditional alpha test (section 1)".to_owned(),
         Source::ScreenDoor(ScreenDoor::Fixed) => "the ordered dither of 4 x 4 pixels".to_owned(),
+        Source::ScreenDoor(ScreenDoor::Bayer) => {
+            "the ordered dither of 8 x 8 pixels (Bayer 1973, not in the paper)".to_owned()
+        }
         Source::ScreenDoor(ScreenDoor::RandomMask(seed)) => {
             format!("a random mask of 4 x 4 pixels (section 3, seed {seed})")
         }

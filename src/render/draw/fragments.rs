@@ -103,6 +103,8 @@ pub struct Fragments {
     pub dtdx: Vec<Vec2>,
     /// Their change to the next pixel below; empty unless needed.
     pub dtdy: Vec<Vec2>,
+    /// What colour and alpha of the texture are multiplied by; empty where no vertex of the mesh changes them.
+    pub tint: Vec<[f32; 4]>,
     /// What is hashed; empty unless needed.
     pub footprint: ColumnBuffer<f32>,
     /// Which of the fragments of its pixel it is; empty unless needed.
@@ -126,12 +128,19 @@ impl Fragments {
         self.pixel.is_empty()
     }
 
+    /// Returns what the colour and the alpha of the texture are multiplied by at a fragment.
+    #[must_use]
+    pub fn tint(&self, at: usize) -> [f32; 4] {
+        self.tint.get(at).copied().unwrap_or([1.0; 4])
+    }
+
     /// Takes out all fragments and keeps the room.
     pub fn clear(&mut self) {
         self.pixel.clear();
         self.triangle.clear();
         self.depth.clear();
         self.texcoord.clear();
+        self.tint.clear();
         self.dtdx.clear();
         self.dtdy.clear();
         self.layer.clear();

@@ -1,6 +1,8 @@
 //! Levels of a mip chain, each made of the one before.
 
+use super::sampler::{Filter, Sampler};
 use crate::technique::prior_work;
+use rayon::prelude::*;
 
 /// One level of a mip chain, row by row from the upper edge (texture coordinate y = 0).
 #[derive(Clone, Debug, PartialEq)]
@@ -34,6 +36,57 @@ pub(super) fn premultiply(mut level: Level) -> Level {
         *colour = colour.map(|share| (f32::from(share) * alpha).round() as u16);
     }
     level
+}
+
+/// Places along each side of a texel at which [`tested`] asks: its shares come in steps of 1/256.
+const PLACES: usize = 16;
+
+/// The share of each texel of a finest level that a test keeps, of the alpha that a sampler makes of it where it is magnified.
+pub(super) fn tested(level: &Level, cutoff: f32, sampler: &Sampler) -> Level {
+    let is_nearest = sampler.magnified.unwrap_or(sampler.filter) == Filter::Nearest;
+    let [width, height] = level.size;
+    let row = |y: u32| {
+        // The texel and its neighbours, along one axis.
+        let beside = |at: u32, axis: usize| {
+            [-1, 0, 1].map(|by| sampler.wrap[axis].texel(i64::from(at) + by, level.size[axis]))
+        };
+        let rows = beside(y, 1);
+        (0..width).map(move |x| {
+            let columns = beside(x, 0);
+            let around = rows.map(|y| columns.map(|x| level.alpha[level.index(x, y)]));
+            let all = around.as_flattened();
+            let [least, most] =
+                [all.iter().fold(1.0_f32, |a, &b| a.min(b)), all.iter().fold(0.0_f32, |a, &b| a.max(b))];
+            if is_nearest || least >= cutoff || most < cutoff {
+                return f32::from(u8::from(around[1][1] >= cutoff));
+            }
+            share(&around, cutoff)
+        })
+    };
+    let alpha = (0..height).into_par_iter().flat_map_iter(row).collect();
+    Level { size: level.size, alpha, colour: level.colour.clone() }
+}
+
+/// The share of the middle texel of nine over which interpolated alpha is at least `cutoff`.
+fn share(around: &[[f32; 3]; 3], cutoff: f32) -> f32 {
+    // The middles of equal parts of the texel: the first of two neighbours, and how far on from its middle.
+    let places: [(usize, f32); PLACES] = core::array::from_fn(|at| {
+        let along = (at as f32 + 0.5) / PLACES as f32 + 0.5;
+        let first = along as usize;
+        (first, along - first as f32)
+    });
+    let mut kept = 0_u16;
+    for (row, down) in places {
+        for (column, across) in places {
+            let along = |row: usize| {
+                let [from, to] = [around[row][column], around[row][column + 1]];
+                from + (to - from) * across
+            };
+            let (upper, lower) = (along(row), along(row + 1));
+            kept += u16::from(upper + (lower - upper) * down >= cutoff);
+        }
+    }
+    f32::from(kept) / (PLACES * PLACES) as f32
 }
 
 /// For each texel of a side of half the length, the texels that it averages and their weights.

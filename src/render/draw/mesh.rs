@@ -1,6 +1,6 @@
 //! Triangles: what every surface becomes before it is drawn.
 
-use glam::{DAffine3, DVec2, DVec3};
+use glam::{DAffine3, DVec2, DVec3, DVec4};
 use rustc_hash::FxHashMap;
 
 /// A corner of a triangle, in every frame of reference that a hash may be anchored to.
@@ -12,6 +12,8 @@ pub struct Vertex {
     pub part: DVec3,
     /// Texture coordinate, [0, 1] across the texture.
     pub texcoord: DVec2,
+    /// What the colour and the alpha of the texture are multiplied by: red, green, blue, alpha, [0, 1] each.
+    pub tint: DVec4,
 }
 
 /// A triangle.
@@ -23,6 +25,8 @@ pub struct Triangle {
     pub object: u32,
     /// The texture that covers it.
     pub texture: u32,
+    /// Whether it is seen from one side only: from where its corners go round counter-clockwise.
+    pub single_sided: bool,
 }
 
 /// How an object stands in the world and moves from frame to frame.
@@ -82,6 +86,12 @@ impl Mesh {
         })
     }
 
+    /// Returns whether some vertex changes the colour or the alpha of its texture.
+    #[must_use]
+    pub fn is_tinted(&self) -> bool {
+        self.vertices.iter().any(|vertex| vertex.tint != DVec4::ONE)
+    }
+
     /// Returns for each triangle the number of the part that it belongs to: triangles of an object that share a corner are
     /// of one part, however many vertices that corner has, and whatever the unit of length.
     ///
@@ -130,7 +140,8 @@ impl Mesh {
         let first = self.vertices.len() as u32;
         self.vertices.extend(corners);
         for corners in [[0, 1, 2], [0, 2, 3]] {
-            self.triangles.push(Triangle { corners: corners.map(|c| first + c), object, texture });
+            let corners = corners.map(|c| first + c);
+            self.triangles.push(Triangle { corners, object, texture, single_sided: false });
         }
     }
 }
@@ -147,7 +158,7 @@ mod tests {
         mesh.objects = vec![still; 2];
         let corner = |x: f64, y: f64| {
             let object = scale * dvec3(x, y, 0.1);
-            Vertex { object, part: object, texcoord: dvec2(x, y) }
+            Vertex { object, part: object, texcoord: dvec2(x, y), tint: DVec4::ONE }
         };
         let rounded = f64::from((0.3 * scale) as f32) / scale;
         for (left, right, object) in

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | [`view`], [`shot`] | where the camera stands, and the series of frames of a scene |
 //! | [`mesh`], [`rasterise`], [`fragments`] | triangles to fragments |
-//! | [`texture`], `level` | what covers surfaces |
+//! | [`texture`], `level`, `sampler` | what covers surfaces, and how it is read |
 //! | [`setup`], [`plan`], [`cost`] | how a frame is set up, what is done to it, and what that costs |
 //! | [`work`] | what one frame becomes, and one tile of it |
 //! | [`frame`], [`mod@reference`] | a frame by a plan, and as it should be |
@@ -24,6 +24,7 @@ pub mod rasterise;
 pub mod rays;
 pub mod reference;
 mod resolve;
+mod sampler;
 pub mod setup;
 pub mod shot;
 pub mod texture;

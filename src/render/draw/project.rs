@@ -4,7 +4,7 @@ use super::fragments::{Needs, Space};
 use super::mesh::{Mesh, Triangle};
 use crate::scene::Camera;
 use crate::technique::conservative::covered;
-use glam::{DVec2, DVec3, dvec2, dvec3};
+use glam::{DVec2, DVec3, DVec4, dvec2, dvec3};
 
 /// A function that is affine over the screen: value = x * pixel.x + y * pixel.y + z.
 pub(in crate::render) type Plane = DVec3;
@@ -20,7 +20,18 @@ pub(in crate::render) struct Projected {
     pub(in crate::render) texcoord: [Plane; 2],
     /// What is hashed, over depth.
     pub(in crate::render) place: [Plane; 3],
+    /// What colour and alpha are multiplied by, over depth; `None` where no vertex of the mesh changes them.
+    pub(in crate::render) tint: Option<[Plane; 4]>,
     pub(in crate::render) triangle: u32,
+}
+
+/// What is drawn of a triangle.
+#[derive(Clone, Copy)]
+pub(in crate::render) struct Sides {
+    /// Whether it is seen from both sides.
+    pub(in crate::render) both: bool,
+    /// Whether its vertices may change colour and alpha.
+    pub(in crate::render) tinted: bool,
 }
 
 /// What a triangle covers of a pixel.
@@ -48,6 +59,7 @@ pub(in crate::render) struct Corner {
     eye: DVec3,
     texcoord: DVec2,
     place: DVec3,
+    tint: DVec4,
 }
 
 impl Projected {
@@ -124,7 +136,7 @@ pub(in crate::render) fn corners(
             Space::Eye => eye,
             Space::Screen | Space::Device => DVec3::ZERO,
         };
-        Corner { eye, texcoord: vertex.texcoord, place }
+        Corner { eye, texcoord: vertex.texcoord, place, tint: vertex.tint }
     });
     // Light from the upper left, on both sides alike.
     let normal = (worlds[1] - worlds[0]).cross(worlds[2] - worlds[0]).normalize_or_zero();
@@ -150,6 +162,7 @@ pub(in crate::render) fn cut_near(corners: [Corner; 3], near: f64) -> Vec<Corner
                 eye: here.eye.lerp(next.eye, share),
                 texcoord: here.texcoord.lerp(next.texcoord, share),
                 place: here.place.lerp(next.place, share),
+                tint: here.tint.lerp(next.tint, share),
             });
         }
     }
@@ -168,6 +181,7 @@ pub(in crate::render) fn project(
     offset: DVec2,
     triangle: u32,
     needs: Needs,
+    sides: Sides,
 ) -> Option<Projected> {
     let pixels = 1.0 / camera.direction_dx.length();
     let rows = 1.0 / camera.direction_dy.length();
@@ -180,7 +194,12 @@ pub(in crate::render) fn project(
     let mut exact = corners.each_ref().map(place);
     let mut rounded =
         if needs.coverage { exact } else { exact.map(|corner| (corner * 256.0).round() / 256.0) };
-    if area(rounded) < 0.0 {
+    // Rows go down, so that what goes round counter-clockwise has a negative area.
+    let is_front = area(rounded) < 0.0;
+    if !(is_front || sides.both) {
+        return None;
+    }
+    if is_front {
         corners.swap(1, 2);
         exact.swap(1, 2);
         rounded.swap(1, 2);
@@ -224,6 +243,7 @@ pub(in crate::render) fn project(
             plane(&|corner| corner.place.y),
             plane(&|corner| corner.place.z),
         ],
+        tint: sides.tinted.then(|| [0, 1, 2, 3].map(|c| plane(&|corner| corner.tint[c]))),
         triangle,
     })
 }

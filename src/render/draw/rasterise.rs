@@ -8,7 +8,7 @@
 
 use super::fragments::{Fragments, Needs, Space};
 use super::mesh::Mesh;
-use super::project::{Plane, Projected, corners, cut_near, project};
+use super::project::{Plane, Projected, Sides, corners, cut_near, project};
 use crate::scene::Camera;
 use crate::technique::multisampling::sample_place;
 use core::num::NonZeroU32;
@@ -40,15 +40,18 @@ impl Screen {
     #[must_use]
     pub fn new(mesh: &Mesh, camera: &Camera, frame: f64, offset: DVec2, space: Space, needs: Needs) -> Self {
         let size = camera.resolution;
+        let tinted = mesh.is_tinted();
         let near = NEAR * camera.eye.length().max(1.0);
         let found: Vec<(Vec<Projected>, f32)> = (0..mesh.triangles.len())
             .into_par_iter()
             .map(|index| {
-                let (corners, shade) = corners(mesh, &mesh.triangles[index], camera, frame, space);
+                let triangle = &mesh.triangles[index];
+                let (corners, shade) = corners(mesh, triangle, camera, frame, space);
                 let polygon = cut_near(corners, near);
+                let sides = Sides { both: !triangle.single_sided, tinted };
                 let fan = (2..polygon.len()).filter_map(|last| {
                     let corners = [polygon[0], polygon[last - 1], polygon[last]];
-                    project(&corners, camera, offset, index as u32, needs)
+                    project(&corners, camera, offset, index as u32, needs, sides)
                 });
                 (fan.collect(), shade)
             })
@@ -139,6 +142,10 @@ impl Screen {
         out.depth.push(depth as f32);
         let [u, v] = triangle.texcoord.map(value);
         out.texcoord.push(vec2(u as f32, v as f32));
+        if let Some(tint) = triangle.tint {
+            // The place may lie outside of the triangle, where a vertex colour goes on beyond its bounds.
+            out.tint.push(tint.map(|plane| value(plane).clamp(0.0, 1.0) as f32));
+        }
         if self.needs.texture_derivatives {
             let [s, t] = triangle.texcoord;
             out.dtdx.push(vec2(derivative(s, u, 0) as f32, derivative(t, v, 0) as f32));
@@ -183,7 +190,7 @@ mod tests {
     use super::*;
     use crate::render::draw::mesh::{Object, Triangle, Vertex};
     use crate::scene::Rectangle;
-    use glam::{DAffine3, Vec3, dvec2, dvec3};
+    use glam::{DAffine3, DVec4, Vec3, dvec2, dvec3};
 
     const ALL: Needs = Needs {
         footprint: true,
@@ -204,7 +211,7 @@ mod tests {
         let rectangle = Rectangle { centre: DVec3::ZERO, half_u, half_v };
         let corner = |u: f64, v: f64| {
             let object = half_u * (2.0 * u - 1.0) + half_v * (2.0 * v - 1.0);
-            Vertex { object, part: object, texcoord: dvec2(u, v) }
+            Vertex { object, part: object, texcoord: dvec2(u, v), tint: DVec4::ONE }
         };
         let mut mesh = Mesh {
             objects: vec![Object {
@@ -284,10 +291,11 @@ mod tests {
         mesh.vertices = [DVec3::ZERO]
             .into_iter()
             .chain(rim)
-            .map(|object| Vertex { object, part: object, texcoord: DVec2::ZERO })
+            .map(|object| Vertex { object, part: object, texcoord: DVec2::ZERO, tint: DVec4::ONE })
             .collect();
         mesh.triangles = (0..24)
-            .map(|i| Triangle { corners: [0, 1 + i, 1 + (i + 1) % 24], object: 0, texture: 0 })
+            .map(|i| [0, 1 + i, 1 + (i + 1) % 24])
+            .map(|corners| Triangle { corners, object: 0, texture: 0, single_sided: false })
             .collect();
         let screen = Screen::new(&mesh, &camera, 0.0, DVec2::ZERO, Space::Object, Needs::default());
         let mut fragments = Fragments::default();

@@ -101,7 +101,9 @@ mod tests {
         let object = Object { to_world: DAffine3::IDENTITY, drift: DVec3::ZERO, spin: 0.0, sway: [0.0; 2] };
         let mut mesh = Mesh { objects: vec![object], ..Mesh::default() };
         let mut add = |corners: [DVec3; 4]| {
-            mesh.quad(corners.map(|object| Vertex { object, part: object, texcoord: DVec2::ZERO }), 0, 0);
+            let corner =
+                |object| Vertex { object, part: object, texcoord: DVec2::ZERO, tint: glam::DVec4::ONE };
+            mesh.quad(corners.map(corner), 0, 0);
         };
         let far = 1.0e4;
         add([dvec3(0.0, 0.0, -far), dvec3(far, 0.0, -far), dvec3(far, 0.0, far), dvec3(0.0, 0.0, far)]);

@@ -25,7 +25,7 @@ pub const TECHNIQUE: Technique = Technique {
 /// Returns what the reference needs of textures.
 #[must_use]
 pub fn texture_needs() -> TextureNeeds {
-    TextureNeeds { premultiplied: true, ..TextureNeeds::default() }
+    TextureNeeds { ideal: true, premultiplied: true, ..TextureNeeds::default() }
 }
 
 /// Draws a frame of a shot at `side` x `side` places a pixel; `textures` hold colours multiplied by alpha.
@@ -73,11 +73,20 @@ fn blend(scene: &Scene, textures: &[Texture], screen: &Screen, fragments: &Fragm
         let triangle = fragments.triangle[at];
         let texture = &textures[scene.mesh.triangles[triangle as usize].texture as usize];
         let access = texture.access(fragments.texcoord[at], fragments.dtdx[at], fragments.dtdy[at]);
-        let alpha = texture.alpha(&access, &mut cost.texels);
-        let multiplied = texture.colour(&access).unwrap_or(LEAF.map(|c| c * alpha));
+        let [red, green, blue, tint] = fragments.tint(at);
+        let of_texture = texture.alpha(&access, &mut cost.texels);
+        let alpha = match texture.kept(&access, tint, &mut cost.texels) {
+            Some(kept) => f32::from(u8::from(kept)),
+            None => of_texture * tint,
+        };
+        // Stored colours are multiplied by the alpha of the texture.
+        let share = if of_texture > 0.0 { alpha / of_texture } else { 0.0 };
+        let multiplied =
+            texture.colour(&access).map_or(LEAF.map(|c| c * alpha), |colour| colour.map(|c| c * share));
         let shade = screen.shade(triangle);
         let (colour, left) = &mut pixels[usize::from(fragments.pixel[at])];
-        *colour = [0, 1, 2].map(|c| colour[c] + *left * multiplied[c] * shade);
+        let tints = [red, green, blue];
+        *colour = [0, 1, 2].map(|c| colour[c] + *left * multiplied[c] * tints[c] * shade);
         *left *= 1.0 - alpha;
     }
     let seen = |(colour, left): ([f32; 3], f32)| ([0, 1, 2].map(|c| colour[c] + left * SKY[c]), 1.0 - left);

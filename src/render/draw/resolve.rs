@@ -82,6 +82,7 @@ impl Shading<'_> {
             Some(colour) => colour,
             None => LEAF,
         };
-        colour.map(|c| (c * shade).min(1.0))
+        let tint = work.fragments.tint(at);
+        [0, 1, 2].map(|c| (colour[c] * tint[c] * shade).min(1.0))
     }
 }

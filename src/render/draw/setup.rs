@@ -25,6 +25,8 @@ pub struct Setup {
     pub space: Space,
     /// What is needed of textures.
     pub textures: TextureNeeds,
+    /// What is added to the level of detail that alpha is read at.
+    pub level_bias: f32,
     /// The coarsest level that alpha is read from; any without.
     pub coarsest: Option<f32>,
     /// Where the viewer looks: further away coarser levels are read.
@@ -37,6 +39,8 @@ pub struct Setup {
     pub mixes: bool,
     /// The thresholds of fragments and their samples; `None` where nothing is tested.
     pub pipeline: Option<Pipeline>,
+    /// Whether the one threshold for all gives way to that of a material that has a test of its own.
+    pub yields_to_material: bool,
 }
 
 impl Default for Setup {
@@ -47,12 +51,14 @@ impl Default for Setup {
             needs: Needs { texture_derivatives: true, ..Needs::default() },
             space: Space::Object,
             textures: TextureNeeds::default(),
+            level_bias: 0.0,
             coarsest: None,
             gaze: None,
             jitter: None,
             rays: false,
             mixes: false,
             pipeline: Some(Pipeline::of(Source::Fixed(FIXED_THRESHOLD as f32))),
+            yields_to_material: true,
         }
     }
 }
@@ -66,6 +72,28 @@ impl Setup {
     /// Takes thresholds from another source.
     pub fn source(&mut self, source: Source) {
         self.thresholds(|pipeline| pipeline.source = source);
+    }
+
+    /// Returns the alpha that is tested for one that was read. Where the threshold of all gives way to that of a material, alpha is
+    /// scaled, so that the one is met where the other would be.
+    #[must_use]
+    pub fn tested(&self, alpha: f32, texture: &Texture) -> f32 {
+        let (Some(pipeline), Some(cutoff)) = (&self.pipeline, texture.cutoff) else { return alpha };
+        let threshold = match pipeline.source {
+            Source::Fixed(threshold) if pipeline.uses_source() => threshold,
+            Source::Stipple { kept, .. } => kept,
+            Source::Fixed(_)
+            | Source::Given
+            | Source::Stochastic
+            | Source::Hash(_)
+            | Source::ScreenDoor(_) => return alpha,
+        };
+        if !self.yields_to_material || cutoff == threshold {
+            return alpha;
+        }
+        // Compared first: a scaled alpha may round to the wrong side.
+        let scaled = alpha * (threshold / cutoff);
+        if alpha >= cutoff { scaled.max(threshold) } else { scaled.min(threshold.next_down()) }
     }
 
     /// Returns how far the image is moved to the right and down in a frame, in pixels of the places.
@@ -84,6 +112,7 @@ impl Setup {
             [Vec2::ZERO; 2]
         };
         let mut access = texture.access(fragments.texcoord[at], dtdx, dtdy);
+        access.lod += self.level_bias;
         if let Some(gaze) = &self.gaze {
             let pixel = u32::from(fragments.pixel[at]);
             let place = [corner[0] + pixel % TILE, corner[1] + pixel / TILE];

@@ -1,36 +1,10 @@
 //! Textures: an alpha map with its mip chain, the colours that go with it, and how they are filtered.
 
 pub use super::level::Level;
-use super::level::{half, premultiply};
+use super::level::{half, premultiply, tested};
+pub use super::sampler::{Filter, Sampler, Wrap};
 use crate::threshold::real::Real;
 use glam::{Vec2, vec2};
-use serde::Deserialize;
-
-/// What lies beyond the edge of a texture.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Wrap {
-    /// The texture again.
-    Repeat,
-    /// Its outermost texel.
-    #[default]
-    Clamp,
-}
-
-/// How texels become one value.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Filter {
-    /// The nearest texel of the nearest level.
-    Nearest,
-    /// Four texels of the nearest level.
-    Bilinear,
-    /// Four texels of each of the two nearest levels.
-    #[default]
-    Trilinear,
-    /// Up to 16 trilinear probes along the longer axis of the footprint.
-    Anisotropic,
-}
 
 /// The greatest number of probes of [`Filter::Anisotropic`]: what hardware goes to.
 const MOST_PROBES: f32 = 16.0;
@@ -38,17 +12,28 @@ const MOST_PROBES: f32 = 16.0;
 /// A texture before its mip chain is built.
 #[derive(Clone, Debug)]
 pub struct TextureSource {
-    /// Its finest level.
-    pub finest: Level,
-    /// What lies beyond its edge.
-    pub wrap: Wrap,
-    /// How texels become one value.
-    pub filter: Filter,
+    /// The levels that it comes with, the finest first; the others are made of it where it comes alone. Never empty.
+    pub levels: Vec<Level>,
+    /// How it is read.
+    pub sampler: Sampler,
+    /// The least alpha that its material's own test keeps; `None` for a material without a test, whose alpha is coverage.
+    pub cutoff: Option<f32>,
+}
+
+impl TextureSource {
+    /// One whose levels are made, of a material whose alpha is coverage.
+    #[must_use]
+    pub fn new(finest: Level, wrap: Wrap, filter: Filter) -> Self {
+        Self { levels: vec![finest], sampler: Sampler::new(wrap, filter), cutoff: None }
+    }
 }
 
 /// What a plan needs of textures.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TextureNeeds {
+    /// What they should show, in place of what a device reads: a material's own test acts on the finest level alone, each
+    /// texel of which becomes the share of it that is kept, and every coarser level is the mean of that.
+    pub ideal: bool,
     /// Colours multiplied by alpha (§7.3).
     pub premultiplied: bool,
     /// What is done to them before the first frame, in this order.
@@ -72,18 +57,21 @@ impl PartialEq for Change {
     }
 }
 
-/// The threshold of the finest level, of which changes of the other levels keep the share.
-pub const REFERENCE: f32 = 0.5;
+/// The threshold of the finest level, of which changes of the other levels keep the share, where a material has none of its
+/// own.
+const REFERENCE: f32 = 0.5;
 
 /// A texture with every level down to one texel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Texture {
     /// The levels, the finest first; never empty.
     pub levels: Vec<Level>,
-    /// What lies beyond the edge.
-    pub wrap: Wrap,
-    /// How texels become one value.
-    pub filter: Filter,
+    /// How it is read.
+    pub sampler: Sampler,
+    /// The least alpha that its material's own test keeps, if it has one.
+    pub cutoff: Option<f32>,
+    /// The finest level as it was before its material's own test, where the levels show what that keeps.
+    untested: Option<Level>,
     /// A threshold for each level (Eq. 1); empty unless asked for.
     pub thresholds: Vec<f32>,
 }
@@ -102,20 +90,72 @@ pub struct Access {
 }
 
 impl Texture {
-    /// Builds the mip chain of a finest level by area averages, which keep the mean at every size.
+    /// Builds the mip chain of a finest level by area averages, which keep the mean at every size; a texture that comes with
+    /// levels of its own keeps those.
     ///
     /// Colours are averaged as they are, so that those of transparent texels bleed in, or weighted by alpha where they are
     /// multiplied by it (§7.3).
     #[must_use]
     pub fn new(source: &TextureSource, needs: &TextureNeeds) -> Self {
-        let TextureSource { finest, wrap, filter } = source.clone();
-        let mut levels = vec![if needs.premultiplied { premultiply(finest) } else { finest }];
-        while let Some(next) = levels.last().and_then(half) {
-            levels.push(next);
+        let TextureSource { levels, mut sampler, cutoff } = source.clone();
+        let (mut levels, untested) = match cutoff {
+            Some(cutoff) if needs.ideal => {
+                let shown = tested(&levels[0], cutoff, &sampler);
+                (vec![shown], levels.into_iter().next())
+            }
+            Some(_) | None => (levels, None),
+        };
+        if needs.ideal && !sampler.has_levels {
+            (sampler.has_levels, sampler.filter) = (true, Filter::Trilinear);
         }
-        let mut texture = Self { levels, wrap, filter, thresholds: Vec::new() };
+        if needs.ideal || !sampler.has_levels {
+            levels.truncate(1);
+        }
+        if needs.premultiplied {
+            levels = levels.into_iter().map(premultiply).collect();
+        }
+        if sampler.has_levels && levels.len() == 1 {
+            while let Some(next) = levels.last().and_then(half) {
+                levels.push(next);
+            }
+        }
+        let mut texture = Self { levels, sampler, cutoff, untested, thresholds: Vec::new() };
         needs.changes.iter().for_each(|change| (change.run)(&mut texture, change.parameter));
         texture
+    }
+
+    /// Returns the threshold of which changes of levels keep the share: that of its material's own test, else one half.
+    #[must_use]
+    pub fn reference(&self) -> f32 {
+        self.cutoff.unwrap_or(REFERENCE)
+    }
+
+    /// Returns the share of a level, as this texture reads it where it is magnified, on which alpha is at least `cutoff`; [0, 1].
+    #[must_use]
+    pub fn share_kept(&self, level: &Level, cutoff: f32) -> f64 {
+        tested(level, cutoff, &self.sampler).alphas().mean()
+    }
+
+    /// Returns what a material's own test makes of a place where a vertex colour multiplies alpha, [0, 1]: whether the finest level is
+    /// kept there. `None` where the share that is kept around the place is to be read instead: of a texture that has no test or
+    /// does not show it, and of one whose texels are smaller than a pixel, but for alphas that a vertex colour has changed.
+    #[must_use]
+    pub fn kept(&self, access: &Access, tint: f32, texels: &mut u64) -> Option<bool> {
+        let (untested, cutoff) = (self.untested.as_ref()?, self.cutoff?);
+        if tint == 1.0 && access.lod > 0.0 {
+            return None;
+        }
+        let mut read = |level: &Level, at| {
+            *texels += 1;
+            [level.alpha[at]]
+        };
+        let [alpha] = match self.sampler.filter(0.0) {
+            Filter::Nearest | Filter::NearestLinear => self.nearest(untested, access.texcoord, &mut read),
+            Filter::Bilinear | Filter::Trilinear | Filter::Anisotropic => {
+                self.bilinear(untested, access.texcoord, &mut read)
+            }
+        };
+        Some(alpha * tint >= cutoff)
     }
 
     /// Returns where to read for a texture coordinate with its two screen derivatives (texture coordinates per pixel).
@@ -128,7 +168,7 @@ impl Texture {
             if along_x < along_y { (along_y, along_x, dtdy) } else { (along_x, along_y, dtdx) };
         // A footprint without extent reads the finest level.
         let lod = |texels: f32| libm::log2f(texels.max(f32::MIN_POSITIVE));
-        if self.filter != Filter::Anisotropic {
+        if self.sampler.filter != Filter::Anisotropic {
             return Access { texcoord, lod: lod(long), probes: 1, step: Vec2::ZERO };
         }
         let ratio = long / short;
@@ -140,16 +180,12 @@ impl Texture {
     /// Returns the number of texels that [`Texture::alpha`] reads for an access.
     #[must_use]
     pub fn texels(&self, access: &Access) -> u64 {
-        let each = match self.filter {
+        let between = |one: u64| if self.blend(access.lod).1 > 0.0 { 2 * one } else { one };
+        let each = match self.sampler.filter(access.lod) {
             Filter::Nearest => 1,
+            Filter::NearestLinear => between(1),
             Filter::Bilinear => 4,
-            Filter::Trilinear | Filter::Anisotropic => {
-                if self.blend(access.lod).1 > 0.0 {
-                    8
-                } else {
-                    4
-                }
-            }
+            Filter::Trilinear | Filter::Anisotropic => between(4),
         };
         each * u64::from(access.probes)
     }
@@ -216,21 +252,23 @@ impl Texture {
         texel: &mut impl FnMut(&Level, usize) -> [f32; N],
     ) -> [f32; N] {
         let nearest = || self.blend(lod.max(0.0) + 0.5).0.min(self.levels.len() - 1);
-        match self.filter {
-            Filter::Nearest => {
-                let level = &self.levels[nearest()];
-                let [x, y] = [0, 1].map(|axis| {
-                    let along = Real::floor(place[axis] * level.size[axis] as f32);
-                    self.wrap.texel(along as i64, level.size[axis])
-                });
-                texel(level, level.index(x, y))
+        match self.sampler.filter(lod) {
+            Filter::Nearest => self.nearest(&self.levels[nearest()], place, texel),
+            Filter::NearestLinear => {
+                let (finer, weight) = self.blend(lod);
+                let fine = self.nearest(&self.levels[finer], place, texel);
+                if weight > 0.0 {
+                    mix(fine, self.nearest(&self.levels[finer + 1], place, texel), weight)
+                } else {
+                    fine
+                }
             }
-            Filter::Bilinear => self.bilinear(nearest(), place, texel),
+            Filter::Bilinear => self.bilinear(&self.levels[nearest()], place, texel),
             Filter::Trilinear | Filter::Anisotropic => {
                 let (finer, weight) = self.blend(lod);
-                let fine = self.bilinear(finer, place, texel);
+                let fine = self.bilinear(&self.levels[finer], place, texel);
                 if weight > 0.0 {
-                    let coarse = self.bilinear(finer + 1, place, texel);
+                    let coarse = self.bilinear(&self.levels[finer + 1], place, texel);
                     mix(fine, coarse, weight)
                 } else {
                     fine
@@ -239,49 +277,33 @@ impl Texture {
         }
     }
 
-    #[inline(always)]
-    fn bilinear<const N: usize>(
+    fn nearest<const N: usize>(
         &self,
-        level: usize,
+        level: &Level,
         place: Vec2,
         texel: &mut impl FnMut(&Level, usize) -> [f32; N],
     ) -> [f32; N] {
-        let level = &self.levels[level];
-        let (left, right, across) = self.wrap.between(place.x, level.size[0]);
-        let (top, bottom, down) = self.wrap.between(place.y, level.size[1]);
+        let [x, y] = [0, 1].map(|axis| {
+            let along = Real::floor(place[axis] * level.size[axis] as f32);
+            self.sampler.wrap[axis].texel(along as i64, level.size[axis])
+        });
+        texel(level, level.index(x, y))
+    }
+
+    #[inline(always)]
+    fn bilinear<const N: usize>(
+        &self,
+        level: &Level,
+        place: Vec2,
+        texel: &mut impl FnMut(&Level, usize) -> [f32; N],
+    ) -> [f32; N] {
+        let [columns, rows] = self.sampler.wrap;
+        let (left, right, across) = columns.between(place.x, level.size[0]);
+        let (top, bottom, down) = rows.between(place.y, level.size[1]);
         let mut at = |x, y| texel(level, level.index(x, y));
         let upper = mix(at(left, top), at(right, top), across);
         let lower = mix(at(left, bottom), at(right, bottom), across);
         mix(upper, lower, down)
-    }
-}
-
-impl Wrap {
-    /// The texel that is read for a place along a side of so many, inside the texture or not.
-    fn texel(self, at: i64, side: u32) -> usize {
-        let side = i64::from(side);
-        if (0..side).contains(&at) {
-            return at as usize;
-        }
-        let inside = match self {
-            Self::Repeat => at.rem_euclid(side),
-            Self::Clamp => at.clamp(0, side - 1),
-        };
-        inside as usize
-    }
-
-    /// The two texels along a side of so many between whose middles a place lies, [0, 1] across the texture, and how far it is
-    /// from the first.
-    #[inline(always)]
-    fn between(self, place: f32, side: u32) -> (usize, usize, f32) {
-        let along = place * side as f32 - 0.5;
-        // Most places lie between two texels that are there, where rounding is towards zero.
-        if along >= 0.0 && along < (side - 1) as f32 {
-            let first = along as i32;
-            return (first as usize, first as usize + 1, along - first as f32);
-        }
-        let first = Real::floor(along);
-        (self.texel(first as i64, side), self.texel(first as i64 + 1, side), along - first)
     }
 }
 
@@ -300,7 +322,7 @@ mod tests {
     fn texture(size: [u32; 2], filter: Filter) -> Texture {
         let alpha = (0..size[0] * size[1]).map(|i| f32::from((i * 7 % 11) as u8) / 10.0).collect();
         let finest = Level { size, alpha, colour: Vec::new() };
-        Texture::new(&TextureSource { finest, wrap: Wrap::Repeat, filter }, &TextureNeeds::default())
+        Texture::new(&TextureSource::new(finest, Wrap::Repeat, filter), &TextureNeeds::default())
     }
 
     #[test]
@@ -318,8 +340,16 @@ mod tests {
 
     #[test]
     fn the_texels_that_are_announced_are_read() {
-        for filter in [Filter::Nearest, Filter::Bilinear, Filter::Trilinear, Filter::Anisotropic] {
-            let texture = texture([64, 32], filter);
+        let filters = [
+            Filter::Nearest,
+            Filter::NearestLinear,
+            Filter::Bilinear,
+            Filter::Trilinear,
+            Filter::Anisotropic,
+        ];
+        for (filter, magnified) in filters.into_iter().flat_map(|f| [(f, None), (f, Some(Filter::Nearest))]) {
+            let mut texture = texture([64, 32], filter);
+            texture.sampler.magnified = magnified;
             for step in 0..200 {
                 let dtdx = vec2(0.001 * step as f32, 0.002);
                 let access = texture.access(vec2(0.3, 0.7 + dtdx.x), dtdx, vec2(0.0, 0.01));
@@ -345,11 +375,54 @@ mod tests {
     fn colours_of_transparent_texels_bleed_unless_premultiplied() {
         let finest =
             Level { size: [2, 1], alpha: vec![1.0, 0.0], colour: vec![[0, 60_000, 0], [60_000, 0, 0]] };
-        let source = TextureSource { finest, wrap: Wrap::Clamp, filter: Filter::Trilinear };
+        let source = TextureSource::new(finest, Wrap::Clamp, Filter::Trilinear);
         let of =
             |premultiplied| Texture::new(&source, &TextureNeeds { premultiplied, ..TextureNeeds::default() });
         let (straight, multiplied) = (of(false), of(true));
         assert_eq!(straight.levels[1].colour, [[30_000, 30_000, 0]]);
         assert_eq!(multiplied.levels[1].colour, [[0, 30_000, 0]]);
+    }
+
+    #[test]
+    fn a_mirror_turns_round_at_every_edge() {
+        let read = |at| Wrap::Mirror.texel(at, 3);
+        assert_eq!((-4..8).map(read).collect::<Vec<_>>(), [2, 2, 1, 0, 0, 1, 2, 2, 1, 0, 0, 1]);
+    }
+
+    /// A ramp that is kept from a quarter on: where its interpolated alpha passes, not where a texel does.
+    #[test]
+    fn what_a_material_tests_is_shown_as_the_share_that_it_keeps() {
+        let finest = Level { size: [2, 1], alpha: vec![0.0, 1.0], colour: Vec::new() };
+        let source = |wrap| TextureSource {
+            cutoff: Some(0.25),
+            ..TextureSource::new(finest.clone(), wrap, Filter::Trilinear)
+        };
+        let ideal = TextureNeeds { ideal: true, ..TextureNeeds::default() };
+        let of = |wrap, needs| Texture::new(&source(wrap), needs).levels;
+        // Between the middles of the two texels, at 1/4 and 3/4, alpha is 0.25 at 3/8: all right of that is kept.
+        assert_eq!(of(Wrap::Clamp, &ideal)[0].alpha, [0.25, 1.0]);
+        // Repeated, the ramp rises on both sides of the clear texel.
+        assert_eq!(of(Wrap::Repeat, &ideal)[0].alpha, [0.5, 1.0]);
+        assert_eq!(of(Wrap::Repeat, &ideal)[1].alpha, [0.75]);
+        // What a device reads is what was stored.
+        assert_eq!(of(Wrap::Repeat, &TextureNeeds::default())[0].alpha, [0.0, 1.0]);
+    }
+
+    #[test]
+    fn levels_of_a_file_stay_and_a_sampler_without_has_the_finest() {
+        let level =
+            |size, alpha| Level { size: [size, 1], alpha: vec![alpha; size as usize], colour: Vec::new() };
+        let mut source = TextureSource::new(level(4, 0.5), Wrap::Clamp, Filter::Bilinear);
+        source.levels.push(level(2, 0.9));
+        let sides = |source: &TextureSource, needs: &TextureNeeds| -> Vec<(u32, f32)> {
+            let texture = Texture::new(source, needs);
+            texture.levels.iter().map(|level| (level.size[0], level.alpha[0])).collect()
+        };
+        let ideal = TextureNeeds { ideal: true, ..TextureNeeds::default() };
+        assert_eq!(sides(&source, &TextureNeeds::default()), [(4, 0.5), (2, 0.9)]);
+        assert_eq!(sides(&source, &ideal), [(4, 0.5), (2, 0.5), (1, 0.5)]);
+        source.sampler.has_levels = false;
+        assert_eq!(sides(&source, &TextureNeeds::default()), [(4, 0.5)]);
+        assert_eq!(sides(&source, &ideal), [(4, 0.5), (2, 0.5), (1, 0.5)]);
     }
 }

@@ -121,13 +121,16 @@ impl Shading<'_> {
         let (corner, _) = self.screen.tile(self.tile);
         work.access.clear();
         work.alpha.clear();
+        work.tested.clear();
         work.texels = 0;
         for at in 0..work.fragments.len() {
             let texture = self.texture(work.fragments.triangle[at]);
             let access = self.setup.access(texture, &work.fragments, corner, at);
-            work.alpha.push(texture.alpha(&access, &mut work.texels));
+            let [.., tint] = work.fragments.tint(at);
+            let alpha = texture.alpha(&access, &mut work.texels) * tint;
+            work.alpha.push(alpha);
+            work.tested.push(self.setup.tested(alpha, texture));
             work.access.push(access);
         }
-        work.tested.clone_from(&work.alpha);
     }
 }

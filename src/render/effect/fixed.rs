@@ -8,13 +8,8 @@ use serde::Deserialize;
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Fixed {
-    /// That threshold, in (0, 1].
-    #[serde(default = "half")]
-    pub threshold: f32,
-}
-
-fn half() -> f32 {
-    0.5
+    /// That threshold, in (0, 1]. Without, it is that of each material that has a test of its own, and one half elsewhere.
+    pub threshold: Option<f32>,
 }
 
 impl Effect for Fixed {
@@ -31,7 +26,10 @@ impl Effect for Fixed {
 
     fn plan(&self, plan: &mut Plan) {
         plan.before(tell("fixed: no noise", &[], Text::None), |setup| {
-            setup.source(Source::Fixed(self.threshold))
+            if let Some(threshold) = self.threshold {
+                setup.source(Source::Fixed(threshold));
+                setup.yields_to_material = false;
+            }
         });
     }
 }

@@ -1,7 +1,7 @@
 //! A threshold for each level (§3, Eq. 1): [`level_threshold`](crate::technique::prior_work::level_threshold).
 
 use super::kind::{About, Effect, Phase, Plan, Role, Rules, Text, techniques, tell};
-use crate::render::draw::texture::{Change, REFERENCE, Texture};
+use crate::render::draw::texture::{Change, Texture};
 use crate::technique::prior_work::level_threshold::level_threshold;
 use crate::threshold::pipeline::Source;
 use serde::Deserialize;
@@ -44,8 +44,8 @@ impl Effect for LevelThreshold {
 }
 
 fn find(texture: &mut Texture) {
-    let share = texture.levels[0].alphas().passing_share(REFERENCE);
+    let share = texture.levels[0].alphas().passing_share(texture.reference());
     texture.thresholds = texture.levels.iter().map(|level| level_threshold(level.alphas(), share)).collect();
     // The share of the finest level is that of the reference itself.
-    texture.thresholds[0] = REFERENCE;
+    texture.thresholds[0] = texture.reference();
 }

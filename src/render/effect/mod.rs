@@ -16,6 +16,7 @@ pub mod history;
 pub mod independent;
 pub mod jitter;
 pub mod kind;
+pub mod level_bias;
 pub mod level_threshold;
 pub mod limited_level;
 pub mod multisampling;
@@ -100,6 +101,7 @@ effects! {
     multisampling: Multisampling,
     foveated: Foveated,
     finest_level: FinestLevel,
+    level_bias: LevelBias,
     limited_level: LimitedLevel,
     level_threshold: LevelThreshold,
     scaled_alpha: ScaledAlpha,

@@ -54,6 +54,9 @@ fn test(plan: &mut Plan, pipeline: Pipeline) {
     needs.frame |= reads.frame || reads.random;
     needs.pixel |= reads.pixel;
     let says = match pipeline.source {
+        Source::Fixed(threshold) if pipeline.uses_source() && plan.setup.yields_to_material => {
+            format!("threshold: {threshold} for all, or what a material has of its own")
+        }
         Source::Fixed(threshold) if pipeline.uses_source() => format!("threshold: {threshold} for all"),
         Source::Given | Source::Stipple { .. } | Source::Fixed(_) => "threshold: as found".to_owned(),
         Source::Stochastic | Source::Hash(_) | Source::ScreenDoor(_) => {

@@ -1,7 +1,7 @@
 //! Alphas scaled by texel (§3): [`scaled_alpha`](crate::technique::prior_work::scaled_alpha).
 
 use super::kind::{About, Bound, Effect, Plan, Role, Rules, Text, techniques, tell};
-use crate::render::draw::texture::{Change, REFERENCE, Texture};
+use crate::render::draw::texture::{Change, Texture};
 use crate::technique::prior_work::scaled_alpha::{alpha_scale, scaled, scaled_by_texel};
 use serde::Deserialize;
 
@@ -40,16 +40,16 @@ impl Effect for ScaledTexels {
 }
 
 fn scale(texture: &mut Texture, radius: usize) {
-    let base = texture.levels[0].clone();
-    let (base, share) = (base.alphas(), base.alphas().passing_share(REFERENCE));
+    let (base, reference) = (texture.levels[0].clone(), texture.reference());
+    let (base, share) = (base.alphas(), base.alphas().passing_share(reference));
     for level in texture.levels.iter_mut().skip(1) {
         let view = level.alphas();
         let is_whole = base.width.is_multiple_of(view.width) && base.height.is_multiple_of(view.height);
         level.alpha = if is_whole {
-            scaled_by_texel(view, base, REFERENCE, radius)
+            scaled_by_texel(view, base, reference, radius)
         } else {
             // A map whose sides are no powers of two has no whole number of base texels under each texel.
-            scaled(view, alpha_scale(view, share, REFERENCE))
+            scaled(view, alpha_scale(view, share, reference))
         };
     }
 }

@@ -27,6 +27,8 @@ impl Effect for ScreenDoor {
     .techniques(techniques![
         "screen-door": "§3, §8.1", "screen-door" / "fixed mask",
             "Samples lie in several pixels; layers and tiles repeat.";
+        "bayer-screen-door": "not in the paper (Bayer 1973)", "screen-door" / "8 x 8 mask",
+            "Finer steps of coverage than 4 x 4 pixels give, and layers look like one all the same.";
         "random-screen-door": "§3 (Mulder et al. 1998)", "screen-door" / "random mask",
             "Even a random mask correlates layers.";
         "hashed-screen-door": "§8.1", "screen-door" / "hashed masks",
@@ -38,7 +40,8 @@ impl Effect for ScreenDoor {
     }
 
     fn plan(&self, plan: &mut Plan) {
-        let says = format!("threshold: that of the pixel in a {} mask of 4 x 4", self.mask.name());
+        let (name, side) = (self.mask.name(), self.mask.tile());
+        let says = format!("threshold: that of the pixel in a {name} mask of {side} x {side}");
         plan.before(tell(says, &[], Text::None), |setup| setup.source(Source::ScreenDoor(self.mask)));
     }
 }

@@ -11,16 +11,11 @@ use serde::Deserialize;
 
 /// Alpha sharpened around a cutoff.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[serde(deny_unknown_fields)]
 pub struct Sharpened {
-    /// The alpha at which the silhouette lies, in (0, 1]: that of the alpha test.
-    pub cutoff: f32,
-}
-
-impl Default for Sharpened {
-    fn default() -> Self {
-        Self { cutoff: 0.5 }
-    }
+    /// The alpha at which the silhouette lies, in (0, 1]. Without, it is that of each material that has a test of its own, and
+    /// one half elsewhere.
+    pub cutoff: Option<f32>,
 }
 
 /// The least change of alpha from pixel to pixel that is divided by.
@@ -54,7 +49,9 @@ impl Effect for Sharpened {
         let cutoff = self.cutoff;
         // Alpha is read once more at each of the two neighbours.
         let price = [(Per::Texel, Cost::texels(2))];
-        let says = format!("sharpen alpha: around {cutoff}, over its change to the next pixels");
+        let around =
+            cutoff.map_or("one half, or the cutoff of the material".to_owned(), |cutoff| cutoff.to_string());
+        let says = format!("sharpen alpha: around {around}, over its change to the next pixels");
         plan.setup.needs.texture_derivatives = true;
         plan.shade(Phase::Alpha, tell(says, &price, Text::Beside(TEXT)), move |shading, work, _| {
             sharpen(shading, work, cutoff);
@@ -74,15 +71,16 @@ pub fn sharpened(alpha: f32, cutoff: f32, width: f32) -> f32 {
 /// Sharpens the alphas that are tested. Derivatives are forward differences, each fragment its own: to the alpha at the texture
 /// coordinate one pixel on along each screen axis, at the level of the fragment. (The lanes of a hardware quad share theirs.)
 /// The two reads more are in the price that the plan states.
-fn sharpen(shading: &Shading<'_>, work: &mut Work, cutoff: f32) {
+fn sharpen(shading: &Shading<'_>, work: &mut Work, cutoff: Option<f32>) {
     let Work { fragments, access, alpha, tested, .. } = work;
     for (at, tested) in tested.iter_mut().enumerate() {
         let texture = shading.texture(fragments.triangle[at]);
         let change = |by: glam::Vec2| {
             let mut next = access[at];
             next.texcoord += by;
-            (texture.alpha(&next, &mut 0) - alpha[at]).abs()
+            (texture.alpha(&next, &mut 0) * fragments.tint(at)[3] - alpha[at]).abs()
         };
+        let cutoff = cutoff.unwrap_or(texture.reference());
         *tested = sharpened(alpha[at], cutoff, change(fragments.dtdx[at]) + change(fragments.dtdy[at]));
     }
 }

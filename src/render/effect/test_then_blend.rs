@@ -29,6 +29,8 @@ impl Effect for TestThenBlend {
     }
 
     fn plan(&self, plan: &mut Plan) {
+        // The second pass knows one threshold for all, which the first must share.
+        plan.setup.yields_to_material = false;
         let threshold = match plan.setup.pipeline.map(|pipeline| pipeline.source) {
             Some(Source::Fixed(threshold)) => f64::from(threshold),
             // No other source goes with it.

@@ -34,16 +34,21 @@ const HALO: f64 = 0.05;
 /// Chooses effects for a scene; one that calls for nothing gets the plain alpha test.
 #[must_use]
 pub fn choose(scene: &Scene, textures: &[Texture]) -> Choice {
-    let survey = Survey::new(scene, textures);
+    let factors = scene.file.distance.iter().flat_map(|distance| distance.factors.iter().copied());
+    let mut surveys = vec![(1.0, Survey::new(scene, textures, 1.0))];
+    surveys.extend(factors.map(|factor| (factor, Survey::new(scene, textures, factor))));
+    let survey = &surveys[0].1;
+    let worst = surveys.iter().max_by(|(_, a), (_, b)| a.bias().total_cmp(&b.bias()));
+    let (farthest, bias) = worst.map_or((1.0, 0.0), |(factor, survey)| (*factor, survey.bias()));
+    let seen = if farthest == 1.0 { String::new() } else { format!(" from {farthest} times the distance") };
     let mut effects = Effects { name: Some("auto".to_owned()), ..Effects::default() };
     let mut reasons = Vec::new();
     let percent = |share: f64| format!("{:.1} %", 100.0 * share);
-    let bias = survey.bias();
     let partial = percent(survey.share(survey.partial));
     if bias <= TOLERANCE {
-        effects.fixed = Some(Fixed { threshold: 0.5 });
+        effects.fixed = Some(Fixed { threshold: None });
         reasons.push(format!(
-            "fixed: it gains or loses {} of the coverage, {} of the fragments have an alpha \
+            "fixed: it gains or loses {}{seen} of the coverage, {} of the fragments have an alpha \
              between 0 and 1; saves 2 hashes for each of {} fragments and all noise",
             percent(bias),
             partial,
@@ -56,14 +61,14 @@ pub fn choose(scene: &Scene, textures: &[Texture]) -> Choice {
     let each = if variant == Variant::Anisotropic { 8 } else { 2 };
     effects.robust = Some(RobustHash { variant, ..RobustHash::default() });
     reasons.push(format!(
-        "robust, {variant}: the fixed test gains or loses {} of the coverage; {} of the \
+        "robust, {variant}: the fixed test gains or loses {}{seen} of the coverage; {} of the \
              footprints are more than twice as long as wide; costs {each} hashes for each of {} \
              fragments, risks grain where alpha is between 0 and 1 ({partial} of the fragments)",
         percent(bias),
         percent(oblique),
         survey.fragments
     ));
-    if let Some(level) = survey.first_wrong_level(TOLERANCE)
+    if let Some(level) = surveys.iter().filter_map(|(_, survey)| survey.first_wrong_level(TOLERANCE)).min()
         && survey.near() > ENOUGH
         && level > 0
     {

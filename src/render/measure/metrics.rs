@@ -2,6 +2,7 @@
 
 use super::depth::DepthBuffer;
 use super::layers::LayerSums;
+use super::motion::Along;
 use super::picture::{Picture, Region};
 use crate::render::draw::shot::Shot;
 use crate::render::draw::view::Cause;
@@ -18,12 +19,14 @@ use std::collections::{BTreeMap, VecDeque};
 /// | `coverage` | mean share of the image that is covered, over all frames |
 /// | `coverage_ratio` | that, as a share of the truth's |
 /// | `rmse`, `rmse_coverage` | root mean square error of colour and of coverage to the truth, mean over frames |
+/// | `rmse.object`, `rmse_coverage.object` | the same over the pixels that a surface touches, without the background |
 /// | `rmse_of_mean` | that of the coverage of the mean over frames |
 /// | `coverage.NAME`, `coverage_ratio.NAME` | the first two within a region of the scene |
 /// | `ssim` | structural similarity of luminance to the truth, mean over frames |
-/// | `flips` | change of coverage a frame, per pixel that a surface touches in both |
+/// | `flips.surface` | change of coverage a frame at a point of the nearest surface, followed through its motion |
+/// | `flips.pixel` | change of coverage a frame, per pixel that a surface touches in both, whatever moves below it |
 /// | `changed` | change of coverage a frame over the whole image, as a share of the mean coverage |
-/// | `flips.translate`, `.zoom`, `.rotate` | the same with one cause of motion alone |
+/// | `flips.surface.translate`, `.zoom`, `.rotate`, `flips.pixel.translate`, ... | the same with one cause of motion alone |
 /// | `layer_correlation` | correlation of the visibilities of the first two layers, where both are partly transparent |
 /// | `coverage_ratio.gaze`, `.periphery` | the coverage ratio within the circle around the gaze, and outside |
 /// | `ghosting` | share of the coverage that is shown where no surface is in that frame; of takes that mix frames |
@@ -33,7 +36,7 @@ use std::collections::{BTreeMap, VecDeque};
 /// | `open_run_ratio` | `run_ratio` of open and occluded pixels |
 /// | `depth.phantoms` | share of the depths of a smaller buffer at which there is nothing |
 /// | `depth.occlusion` | mean share of the neighbours of a pixel that are nearer than it |
-/// | `run_x`, `run_y` | mean length of runs of equal visibility along the rows and the columns, in pixels |
+/// | `run_x`, `run_y` | mean length of runs of equal visibility along the rows and the columns, in pixels, as far as the image goes |
 /// | `run_ratio` | `run_y / run_x` |
 ///
 /// Those of another distance end in `@` and its factor.
@@ -70,6 +73,8 @@ struct Sums {
     before: Option<(Vec<f32>, Vec<bool>)>,
     /// Change of coverage, and pixels that were compared.
     flips: [f64; 2],
+    /// The same at points of surfaces.
+    surface: [f64; 2],
     /// Change of coverage over all pixels, and the number of frames that were compared.
     changed: [f64; 2],
     /// Coverage where no surface is, and all.
@@ -78,8 +83,7 @@ struct Sums {
     latest: VecDeque<Vec<f32>>,
     touched: Vec<bool>,
     open: Option<OpenSums>,
-    /// Neighbours along each axis that differ, and all.
-    runs: [[f64; 2]; 2],
+    runs: [Runs; 2],
     layers: Option<LayerSums>,
     /// Coverage and that of the truth, within the circle around the gaze and outside.
     gaze: Option<[[f64; 2]; 2]>,
@@ -94,7 +98,7 @@ struct OpenSums {
     before: Vec<Option<f32>>,
     /// Change of the share, and pixels that were compared.
     flips: [f64; 2],
-    runs: [[f64; 2]; 2],
+    runs: [Runs; 2],
 }
 
 #[derive(Clone, Debug)]
@@ -102,6 +106,8 @@ struct ErrorSums {
     coverage: f64,
     rmse: f64,
     rmse_coverage: f64,
+    /// Of colour and coverage, over touched pixels.
+    object: [f64; 2],
     ssim: f64,
     mean: Vec<f32>,
 }
@@ -125,8 +131,8 @@ impl Measured {
         self.shots == 1
     }
 
-    /// Adds a frame; `truth` as it should be.
-    pub fn add(&mut self, frame: &Frame, truth: Option<&Picture>, asked: Asked) {
+    /// Adds a frame; `truth` as it should be, and `along` where its surfaces were in the frame before, if there was one.
+    pub fn add(&mut self, frame: &Frame, truth: Option<&Picture>, along: Option<&Along<'_>>, asked: Asked) {
         let picture = &frame.picture;
         let sums = &mut self.sums;
         sums.frames += 1.0;
@@ -135,6 +141,9 @@ impl Measured {
             for at in (0..before.len()).filter(|&at| touched[at] && frame.touched[at]) {
                 sums.flips[0] += f64::from((picture.coverage[at] - before[at]).abs());
                 sums.flips[1] += 1.0;
+            }
+            if let Some([changed, compared]) = along.map(|along| along.changes(picture, before)) {
+                sums.surface = [sums.surface[0] + changed, sums.surface[1] + compared];
             }
             let changes = before.iter().zip(&picture.coverage).map(|(a, b)| f64::from((a - b).abs()));
             sums.changed[0] += changes.sum::<f64>() / before.len().max(1) as f64;
@@ -180,12 +189,24 @@ impl Measured {
                 coverage: 0.0,
                 rmse: 0.0,
                 rmse_coverage: 0.0,
+                object: [0.0; 2],
                 ssim: 0.0,
                 mean: vec![0.0; truth.coverage.len()],
             });
             errors.coverage += truth.mean_coverage();
             errors.rmse += root_mean_square(picture.colour.as_flattened(), truth.colour.as_flattened());
             errors.rmse_coverage += root_mean_square(&picture.coverage, &truth.coverage);
+            let at = |value: &dyn Fn(usize) -> f64| {
+                let touched = (0..frame.touched.len()).filter(|&at| frame.touched[at]);
+                let (sum, count) =
+                    touched.fold((0.0, 0.0), |(sum, count), at| (sum + value(at), count + 1.0));
+                (sum / f64::max(count, 1.0)).sqrt()
+            };
+            errors.object[0] += at(&|at| {
+                let apart = picture.colour[at].iter().zip(&truth.colour[at]).map(|(a, b)| f64::from(a - b));
+                apart.map(|apart| apart * apart).sum::<f64>() / 3.0
+            });
+            errors.object[1] += at(&|at| f64::from(picture.coverage[at] - truth.coverage[at]).powi(2));
             errors.ssim += similarity(picture, truth);
             errors.mean.iter_mut().zip(&truth.coverage).for_each(|(sum, share)| *sum += share);
         }
@@ -205,26 +226,26 @@ impl Measured {
         let mut put = |name: &str, value: f64| {
             metrics.insert(format!("{name}{suffix}"), value);
         };
-        let flips = sums.flips[0] / sums.flips[1].max(1.0);
+        let flips = [("flips.pixel", sums.flips), ("flips.surface", sums.surface)];
+        let flips = flips.into_iter().filter(|(_, [_, compared])| *compared > 0.0);
+        let flips = flips.map(|(name, [changed, compared])| (name, changed / compared));
         if shot.cause != Cause::All {
-            metrics.insert(format!("flips.{}", shot.cause.name()), flips);
+            metrics.extend(flips.map(|(name, share)| (format!("{name}.{}", shot.cause.name()), share)));
             return;
         }
         put("coverage", sums.coverage / frames);
         for (region, [found, right]) in self.regions.iter().zip(&sums.regions) {
             put(&format!("coverage.{}", region.name), found / frames);
             if sums.truth.is_some() {
-                put(&format!("coverage_ratio.{}", region.name), found / right.max(f64::MIN_POSITIVE));
+                put_ratio(&mut put, &format!("coverage_ratio.{}", region.name), *found, *right);
             }
         }
-        if sums.flips[1] > 0.0 {
-            put("flips", flips);
-        }
+        flips.for_each(|(name, share)| put(name, share));
         let [changed, compared] = sums.changed;
         if compared > 0.0 {
             put("changed", changed / compared / (sums.coverage / frames).max(f64::MIN_POSITIVE));
         }
-        let [run_x, run_y] = sums.runs.map(|[differ, all]| all / f64::max(differ, 1.0));
+        let [run_x, run_y] = sums.runs.map(Runs::length);
         put("run_x", run_x);
         put("run_y", run_y);
         put("run_ratio", run_y / run_x.max(f64::MIN_POSITIVE));
@@ -237,7 +258,7 @@ impl Measured {
             if open.flips[1] > 0.0 {
                 put("open_flips", open.flips[0] / open.flips[1]);
             }
-            let [x, y] = open.runs.map(|[differ, all]| all / f64::max(differ, 1.0));
+            let [x, y] = open.runs.map(Runs::length);
             put("open_run_ratio", y / x.max(f64::MIN_POSITIVE));
         }
         for (name, sum) in &sums.depth {
@@ -247,15 +268,26 @@ impl Measured {
             put("layer_correlation", layers.covariance / layers.deviation.max(f64::MIN_POSITIVE));
         }
         for (name, [shown, right]) in ["gaze", "periphery"].iter().zip(sums.gaze.into_iter().flatten()) {
-            put(&format!("coverage_ratio.{name}"), shown / right.max(f64::MIN_POSITIVE));
+            put_ratio(&mut put, &format!("coverage_ratio.{name}"), shown, right);
         }
         if let Some(errors) = &sums.truth {
-            put("coverage_ratio", sums.coverage / errors.coverage.max(f64::MIN_POSITIVE));
+            put_ratio(&mut put, "coverage_ratio", sums.coverage, errors.coverage);
             put("rmse", errors.rmse / frames);
             put("rmse_coverage", errors.rmse_coverage / frames);
+            put("rmse.object", errors.object[0] / frames);
+            put("rmse_coverage.object", errors.object[1] / frames);
             put("ssim", errors.ssim / frames);
             put("rmse_of_mean", root_mean_square(&sums.mean, &errors.mean) / frames);
         }
+    }
+}
+
+/// Puts the share that a coverage has of what is right: 1 where both are nothing, and no number where only the second is.
+fn put_ratio(put: &mut impl FnMut(&str, f64), name: &str, shown: f64, right: f64) {
+    if right > 0.0 {
+        put(name, shown / right);
+    } else if shown == 0.0 {
+        put(name, 1.0);
     }
 }
 
@@ -323,17 +355,41 @@ impl OpenSums {
     }
 }
 
-/// Counts neighbours along each axis that are seen differently, and all of which both are seen.
-fn runs([width, height]: [usize; 2], seen: impl Fn(usize) -> Option<bool>, runs: &mut [[f64; 2]; 2]) {
+/// Runs of pixels along an axis that are seen alike.
+#[derive(Clone, Copy, Debug, Default)]
+struct Runs {
+    /// Neighbours that both are seen, and those of them that are seen differently.
+    pairs: f64,
+    differ: f64,
+    /// Pixels that are seen, and stretches of them without a gap.
+    pixels: f64,
+    stretches: f64,
+}
+
+impl Runs {
+    /// The mean length of a run, in pixels: by how often neighbours differ, so that a run which a border cuts is not taken for a short
+    /// one; and no longer than a stretch.
+    fn length(self) -> f64 {
+        let stretch = self.pixels / self.stretches.max(1.0);
+        if self.differ > 0.0 { stretch.min(self.pairs / self.differ) } else { stretch }
+    }
+}
+
+/// Counts runs of pixels along each axis.
+fn runs([width, height]: [usize; 2], seen: impl Fn(usize) -> Option<bool>, runs: &mut [Runs; 2]) {
     for y in 0..height {
         for x in 0..width {
             let Some(here) = seen(y * width + x) else { continue };
-            let beside = (x + 1 < width).then(|| seen(y * width + x + 1)).flatten();
-            let below = (y + 1 < height).then(|| seen((y + 1) * width + x)).flatten();
-            for (axis, other) in [beside, below].into_iter().enumerate() {
-                if let Some(other) = other {
-                    runs[axis][0] += f64::from(u8::from(here != other));
-                    runs[axis][1] += 1.0;
+            let left = (x > 0).then(|| seen(y * width + x - 1)).flatten();
+            let above = (y > 0).then(|| seen((y - 1) * width + x)).flatten();
+            for (before, runs) in [left, above].into_iter().zip(runs.iter_mut()) {
+                runs.pixels += 1.0;
+                match before {
+                    None => runs.stretches += 1.0,
+                    Some(before) => {
+                        runs.pairs += 1.0;
+                        runs.differ += f64::from(u8::from(before != here));
+                    }
                 }
             }
         }
@@ -363,13 +419,15 @@ mod tests {
         for (coverage, right) in [(stripes(2), true), (stripes(1), false)] {
             let mut measured = Measured::default();
             measured.begin();
-            measured.add(&frame(coverage), Some(&truth), Asked::default());
+            measured.add(&frame(coverage), Some(&truth), None, Asked::default());
             measured.end(&SHOT, &mut metrics);
-            assert_eq!(metrics["rmse"] == 0.0 && metrics["rmse_of_mean"] == 0.0, right);
+            for error in ["rmse", "rmse_of_mean", "rmse.object", "rmse_coverage.object"] {
+                assert_eq!(metrics[error] == 0.0, right, "{error}");
+            }
             assert_eq!((metrics["ssim"] - 1.0).abs() < 1e-9, right, "{}", metrics["ssim"]);
             assert_eq!(metrics["coverage_ratio"], 1.0);
         }
-        assert!(!metrics.contains_key("flips") && !metrics.contains_key("layer_correlation"));
+        assert!(!metrics.contains_key("flips.pixel") && !metrics.contains_key("layer_correlation"));
     }
 
     #[test]
@@ -380,7 +438,7 @@ mod tests {
         for share in [0.9, 0.2, 0.3, 0.2, 0.3, 0.2, 0.3, 0.2, 0.3] {
             let mut half = frame(vec![share; 256]);
             half.touched[..64].fill(false);
-            measured.add(&half, None, asked);
+            measured.add(&half, None, None, asked);
         }
         measured.end(&SHOT, &mut metrics);
         assert!((metrics["ghosting"] - 0.25).abs() < 1e-6);
@@ -394,7 +452,7 @@ mod tests {
         let regions = [region("left", [0, 3], [1, 9]), region("beyond", [2, 8], [40, u32::MAX])];
         let (mut measured, mut metrics) = (Measured::new(&regions, None), Metrics::default());
         measured.begin();
-        measured.add(&frame(stripes(1)), Some(&frame(stripes(2)).picture), Asked::default());
+        measured.add(&frame(stripes(1)), Some(&frame(stripes(2)).picture), None, Asked::default());
         measured.end(&SHOT, &mut metrics);
         assert_eq!((metrics["coverage.left"], metrics["coverage_ratio.left"]), (1.0, 1.0));
         assert_eq!((metrics["coverage.beyond"], metrics["coverage"]), (0.5, 0.5));
@@ -406,14 +464,34 @@ mod tests {
         let mut measured = Measured::default();
         let mut metrics = Metrics::default();
         measured.begin();
-        measured.add(&frame(stripes(2)), None, Asked::default());
-        measured.add(&frame(stripes(2).iter().map(|share| 1.0 - share).collect()), None, Asked::default());
+        measured.add(&frame(stripes(2)), None, None, Asked::default());
+        measured.add(
+            &frame(stripes(2).iter().map(|share| 1.0 - share).collect()),
+            None,
+            None,
+            Asked::default(),
+        );
         measured.end(&SHOT, &mut metrics);
-        assert_eq!(metrics["flips"], 1.0);
+        assert_eq!(metrics["flips.pixel"], 1.0);
         // Every pixel changes, half of them are covered.
         assert_eq!(metrics["changed"], 2.0);
-        // Seven edges among fifteen neighbours of a row; no edge along a column.
+        // Seven edges among fifteen neighbours of a row; a column is one run, which ends with the image.
         assert!((metrics["run_x"] - 15.0 / 7.0).abs() < 1e-12);
-        assert_eq!(metrics["run_y"], 480.0);
+        assert_eq!(metrics["run_y"], 16.0);
+    }
+
+    #[test]
+    fn errors_are_measured_where_the_object_is() {
+        let mut quarter = frame(stripes(1));
+        (0..256).for_each(|at| quarter.touched[at] = at < 64);
+        let mut truth = frame(stripes(1)).picture;
+        truth.coverage[..32].iter_mut().for_each(|share| *share = 1.0 - *share);
+        let (mut measured, mut metrics) = (Measured::default(), Metrics::default());
+        measured.begin();
+        measured.add(&quarter, Some(&truth), None, Asked::default());
+        measured.end(&SHOT, &mut metrics);
+        // Half of the touched pixels are wrong, an eighth of all.
+        assert!((metrics["rmse_coverage.object"] - 0.5_f64.sqrt()).abs() < 1e-9);
+        assert!((metrics["rmse_coverage"] - 0.125_f64.sqrt()).abs() < 1e-9);
     }
 }

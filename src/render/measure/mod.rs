@@ -4,6 +4,7 @@
 //! |---|---|
 //! | [`study`] | all takes of a scene, frame by frame |
 //! | [`metrics`], [`layers`], [`depth`], [`picture`] | numbers and pictures |
+//! | [`motion`] | where surfaces were in the frame before |
 //! | [`predict`] | what a plan will cost |
 //! | [`expect`] | what must come out |
 //! | [`survey`], [`auto`] | what a scene asks for, and effects chosen from it |
@@ -13,6 +14,7 @@ pub mod depth;
 pub mod expect;
 pub mod layers;
 pub mod metrics;
+pub mod motion;
 pub mod picture;
 pub mod predict;
 pub mod study;

@@ -3,6 +3,7 @@
 use super::auto;
 use super::expect::{Checked, check};
 use super::metrics::{Asked, Measured, Metrics};
+use super::motion::{Along, Motion};
 use super::picture::{self, Inset, Picture};
 use crate::render::draw::cost::Cost;
 use crate::render::draw::frame::{frame, moment};
@@ -17,6 +18,9 @@ use crate::render::scene_file::load::Scene;
 use crate::render::scene_file::schema::Takes;
 use image::RgbImage;
 use std::time::Instant;
+
+/// Change of a surface a frame from which on noise that stays on the screen is told.
+const SLIDES: f64 = 0.01;
 
 /// What became of one take.
 #[derive(Clone, Debug)]
@@ -52,6 +56,8 @@ pub struct Study {
     pub truth_cost: Cost,
     /// What was expected, and whether it came out.
     pub checked: Vec<Checked>,
+    /// What should be known of the numbers, a sentence each with the take.
+    pub notes: Vec<String>,
 }
 
 /// Returns the effects of every take; where the scene leaves them to the planner, its choice with the reasons.
@@ -101,7 +107,9 @@ pub fn study(scene: &Scene, progress: &mut dyn FnMut(u64, u64)) -> Study {
     for shot in &shots {
         let mut memories = vec![Vec::new(); takes.len()];
         takes.iter_mut().for_each(|(_, measured)| measured.begin());
+        let mut before: Option<Motion> = None;
         for index in 0..frames {
+            let now = (frames > 1).then(|| Motion::new(scene, shot, index));
             let truth = scene.file.truth.as_ref().map(|truth| {
                 let (picture, cost) =
                     reference::frame(scene, find(&of_reference), shot, index, truth.samples.get());
@@ -119,10 +127,12 @@ pub fn study(scene: &Scene, progress: &mut dyn FnMut(u64, u64)) -> Study {
                     memory,
                     measured,
                     truth.as_ref(),
+                    now.as_ref().zip(before.as_ref()),
                 );
                 done += 1;
                 progress(done, total);
             }
+            before = now;
             if let (Some(truths), Some(truth), Cause::All) = (&mut truths, truth, shot.cause)
                 && index == shown
             {
@@ -137,7 +147,8 @@ pub fn study(scene: &Scene, progress: &mut dyn FnMut(u64, u64)) -> Study {
     let numbers: Vec<(&str, &Metrics)> =
         takes.iter().map(|take| (take.plan.name.as_str(), &take.metrics)).collect();
     let checked = scene.file.expect.iter().map(|expectation| check(expectation, &numbers)).collect();
-    Study { takes, truth: truths, truth_cost, checked }
+    let notes = takes.iter().filter_map(Take::locked).collect();
+    Study { takes, truth: truths, truth_cost, checked, notes }
 }
 
 impl Study {
@@ -194,6 +205,7 @@ impl Take {
         memories: &mut Vec<Memory>,
         measured: &mut Measured,
         truth: Option<&Picture>,
+        motion: Option<(&Motion, &Motion)>,
     ) {
         let begun = Instant::now();
         let mut frame = frame(scene, textures, &self.plan, shot, index);
@@ -218,7 +230,23 @@ impl Take {
             ghosts: self.plan.setup.mixes,
             gaze: self.plan.setup.gaze,
         };
-        measured.add(&frame, truth, asked);
+        let places = f64::from(self.plan.setup.places);
+        let offset = |index: u32| self.plan.setup.offset(index) / places;
+        let along =
+            motion.map(|(now, before)| Along { now, before, jitter: offset(index - 1) - offset(index) });
+        measured.add(&frame, truth, along.as_ref(), asked);
+    }
+
+    /// Tells that noise stays where it is on the screen while surfaces move. What is averaged over frames changes slowly there, too.
+    fn locked(&self) -> Option<String> {
+        let [pixel, surface] = ["flips.pixel", "flips.surface"].map(|name| self.metrics.get(name).copied());
+        let (name, pixel, surface) = (&self.plan.name, pixel?, surface?);
+        (!self.plan.mixes() && surface > SLIDES && pixel < 0.5 * surface).then(|| {
+            format!(
+                "{name}: its noise stays on the screen while surfaces move: pixels change by {pixel:.3} a frame, points of \
+                 surfaces by {surface:.3}"
+            )
+        })
     }
 
     /// Returns the inverted difference of the shown frame and the one beside it; `None` for a still.

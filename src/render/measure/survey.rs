@@ -6,7 +6,7 @@ use crate::render::draw::shot::Shot;
 use crate::render::draw::texture::Texture;
 use crate::render::draw::view::Cause;
 use crate::render::scene_file::load::Scene;
-use crate::threshold::fixed::{FIXED_THRESHOLD, passes};
+use crate::threshold::fixed::passes;
 use crate::threshold::stage::fade_in::anisotropy;
 use glam::{DVec2, vec2};
 
@@ -32,11 +32,11 @@ pub struct Survey {
 }
 
 impl Survey {
-    /// Surveys a scene; `textures` hold colours as they are.
+    /// Surveys a scene from `distance` times as far as it says; `textures` hold colours as they are.
     #[must_use]
-    pub fn new(scene: &Scene, textures: &[Texture]) -> Self {
+    pub fn new(scene: &Scene, textures: &[Texture], distance: f64) -> Self {
         let mut survey = Self::default();
-        let shot = Shot { cause: Cause::All, distance: 1.0 };
+        let shot = Shot { cause: Cause::All, distance };
         let needs = Needs { texture_derivatives: true, ..Needs::default() };
         let screen =
             Screen::new(&scene.mesh, &shot.camera(scene, 0, 1), 0.0, DVec2::ZERO, Space::Object, needs);
@@ -56,7 +56,7 @@ impl Survey {
             let texture = &textures[scene.mesh.triangles[fragments.triangle[at] as usize].texture as usize];
             let (dtdx, dtdy) = (fragments.dtdx[at], fragments.dtdy[at]);
             let access = texture.access(fragments.texcoord[at], dtdx, dtdy);
-            let alpha = texture.alpha(&access, &mut 0);
+            let alpha = texture.alpha(&access, &mut 0) * fragments.tint(at)[3];
             let [width, height] = texture.levels[0].size.map(|side| side as f32);
             let along = [dtdx, dtdy].map(|d| (d * vec2(width, height)).length());
             self.fragments += 1;
@@ -64,7 +64,7 @@ impl Survey {
             self.partial += u64::from(alpha > 0.02 && alpha < 0.98);
             let level = &mut self.levels[(access.lod.ceil().max(0.0) as usize).min(LEVELS - 1)];
             level[0] += 1.0;
-            level[1] += f64::from(u8::from(passes(f64::from(alpha), FIXED_THRESHOLD)));
+            level[1] += f64::from(u8::from(passes(alpha, texture.reference())));
             level[2] += f64::from(alpha);
         }
         self.pixels[0] += layers.iter().filter(|&&layers| layers > 0).count() as u64;

@@ -1,11 +1,11 @@
 //! A scene file made ready to be drawn: its triangles and its textures.
 
-use super::gltf::{self, MeshError};
+use super::gltf::{self, MeshError, Wanted};
 use super::image::{self, ImageError};
 use super::schema::{SceneFile, TextureTable};
 use super::surface::Board;
 use crate::render::draw::mesh::Mesh;
-use crate::render::draw::texture::{Level, Texture, TextureNeeds, TextureSource};
+use crate::render::draw::texture::{Level, Sampler, Texture, TextureNeeds, TextureSource};
 use std::path::Path;
 use std::sync::OnceLock;
 
@@ -16,6 +16,8 @@ pub struct Scene {
     pub file: SceneFile,
     /// Every triangle.
     pub mesh: Mesh,
+    /// What of its files is not simulated and changes what is seen, a sentence each with the file.
+    pub notes: Vec<String>,
     sources: Vec<TextureSource>,
     /// Found when it is first asked for.
     parts: OnceLock<Vec<u32>>,
@@ -60,17 +62,17 @@ impl AssetError {
 /// [`AssetError`] for an image or a mesh that cannot be used; it names the file.
 pub fn prepare(file: SceneFile, folder: &Path) -> Result<Scene, AssetError> {
     let mut sources = Vec::new();
+    let mut notes = Vec::new();
     for (texture, table) in file.texture.iter().enumerate() {
-        let finest =
-            draw(table, file.seed, folder).map_err(|source| AssetError::Image { texture, source })?;
-        sources.push(TextureSource { finest, wrap: table.wrap, filter: table.filter });
+        let levels = draw(table, file.seed, folder, &mut notes)
+            .map_err(|source| AssetError::Image { texture, source })?;
+        let sampler = Sampler::new(table.wrap, table.filter);
+        sources.push(TextureSource { levels, sampler, cutoff: None });
     }
     let mut mesh = Mesh::default();
     for (index, surface) in file.surface.iter().enumerate() {
-        let named = surface
-            .texture
-            .as_ref()
-            .and_then(|name| file.texture.iter().position(|texture| texture.name == *name));
+        let find = |name: &String| file.texture.iter().position(|texture| texture.name == *name);
+        let named = surface.texture.as_ref().and_then(find);
         let named = named.or_else(|| {
             surface.checkerboard.as_ref().map(|_| {
                 sources.push(Board::texture());
@@ -79,13 +81,21 @@ pub fn prepare(file: SceneFile, folder: &Path) -> Result<Scene, AssetError> {
         });
         mesh.objects.push(surface.object());
         if let Some(from) = &surface.mesh {
-            let found = gltf::read(&folder.join(&from.file), from.scale, named.is_none())
+            let textures = from.textures.iter();
+            let wanted = Wanted {
+                scale: from.scale,
+                alpha_mode: from.alpha_mode,
+                all: named,
+                by_material: textures.filter_map(|(of, name)| Some((of.as_str(), find(name)?))).collect(),
+            };
+            let found = gltf::read(&folder.join(&from.file), &wanted)
                 .map_err(|source| AssetError::Mesh { surface: index, source })?;
-            gltf::append(found, index as u32, named, &mut mesh, &mut sources);
+            notes.extend(found.notes.iter().map(|note| format!("{}: {note}", from.file.display())));
+            gltf::append(found, index as u32, &mut mesh, &mut sources);
         }
         surface.build(&mut mesh, index as u32, named.unwrap_or(0) as u32, file.seed);
     }
-    Ok(Scene { file, mesh, sources, parts: OnceLock::new() })
+    Ok(Scene { file, mesh, notes, sources, parts: OnceLock::new() })
 }
 
 impl Scene {
@@ -102,29 +112,39 @@ impl Scene {
     }
 }
 
-fn draw(table: &TextureTable, seed: u64, folder: &Path) -> Result<Level, ImageError> {
+/// The levels that a texture comes with: of a drawn one the finest, of an image those of its file.
+fn draw(
+    table: &TextureTable,
+    seed: u64,
+    folder: &Path,
+    notes: &mut Vec<String>,
+) -> Result<Vec<Level>, ImageError> {
     let (size, opaque) = (table.size, table.opaque);
+    if let Some(image) = &table.image {
+        return image::read(image, folder, notes);
+    }
+    Ok(vec![finest(table, size, opaque, seed)])
+}
+
+fn finest(table: &TextureTable, size: u32, opaque: f64, seed: u64) -> Level {
     if let Some(leaves) = &table.leaves {
-        return Ok(leaves.draw(size, opaque, seed));
+        return leaves.draw(size, opaque, seed);
     }
     if let Some(wire) = &table.wire {
-        return Ok(wire.draw(size, opaque));
+        return wire.draw(size, opaque);
     }
     if let Some(hair) = &table.hair {
-        return Ok(hair.draw(size, opaque, seed));
+        return hair.draw(size, opaque, seed);
     }
     if let Some(board) = &table.checkerboard {
-        return Ok(board.draw(size, opaque));
+        return board.draw(size, opaque);
     }
     if let Some(constant) = &table.constant {
-        return Ok(constant.draw(size));
+        return constant.draw(size);
     }
-    if let Some(ramp) = &table.ramp {
-        return Ok(ramp.draw(size, opaque));
-    }
-    match &table.image {
-        Some(image) => image::read(&folder.join(&image.file), image.alpha),
+    match &table.ramp {
+        Some(ramp) => ramp.draw(size, opaque),
         // A checked file has one of the tables.
-        None => Ok(Level { size: [1, 1], alpha: vec![1.0], colour: Vec::new() }),
+        None => Level { size: [1, 1], alpha: vec![1.0], colour: Vec::new() },
     }
 }

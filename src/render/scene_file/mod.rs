@@ -8,9 +8,11 @@
 //! | [`diagnostic`], `spans` | what is wrong at which key, and where that stands |
 //! | [`load`] | a file with all that it names |
 //! | [`surface`], [`procedural`] | what surfaces and built-in textures are made of |
-//! | [`mod@image`], [`mod@gltf`] | where other textures and meshes come from |
+//! | [`mod@image`], `compressed`, `decoded`, [`mod@gltf`] | where other textures and meshes come from |
 
 pub mod bound;
+mod compressed;
+mod decoded;
 pub mod diagnostic;
 pub mod gltf;
 pub mod image;

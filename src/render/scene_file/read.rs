@@ -90,6 +90,12 @@ fn check(scene: &SceneFile) -> Result<(), Diagnostic> {
                 format!("{what}: `checkerboard.size` has more than a million of its squares in a row");
             return Err(Diagnostic::new(key("checkerboard.square"), message));
         }
+        for (material, name) in surface.mesh.iter().flat_map(|mesh| &mesh.textures) {
+            if !names.contains(&name.as_str()) {
+                let message = format!("no texture is called `{name}`.{}", likely(name, &names));
+                return Err(Diagnostic::new(key(&format!("mesh.textures.{material}")), message));
+            }
+        }
         match &surface.texture {
             Some(name) if !names.contains(&name.as_str()) => {
                 let likely = likely(name, &names);

@@ -3,10 +3,11 @@
 use super::procedural::Checkerboard;
 use crate::render::draw::mesh::{Mesh, Object, Vertex};
 use crate::render::draw::texture::{Filter, TextureSource, Wrap};
-use glam::{DAffine3, DMat3, DQuat, DVec2, DVec3, EulerRot, dvec2, dvec3};
+use glam::{DAffine3, DMat3, DQuat, DVec2, DVec3, DVec4, EulerRot, dvec2, dvec3};
 use rand::rngs::Xoshiro256PlusPlus;
 use rand::{RngExt, SeedableRng};
 use serde::Deserialize;
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 /// A surface: what covers it, where it stands, and exactly one table that says what it is.
@@ -143,7 +144,7 @@ impl Board {
     #[must_use]
     pub fn texture() -> TextureSource {
         let finest = Checkerboard { squares: Self::SQUARES }.draw(256, 1.0);
-        TextureSource { finest, wrap: Wrap::Repeat, filter: Filter::Anisotropic }
+        TextureSource::new(finest, Wrap::Repeat, Filter::Anisotropic)
     }
 }
 
@@ -156,6 +157,23 @@ pub struct MeshFile {
     /// What its units are multiplied by.
     #[serde(default = "unit")]
     pub scale: f64,
+    /// How alpha is taken, whatever its materials say.
+    pub alpha_mode: Option<AlphaMode>,
+    /// Names of textures of the scene by the names of the materials that they stand in for.
+    #[serde(default)]
+    pub textures: BTreeMap<String, String>,
+}
+
+/// How the alpha of a material is taken, in the words of glTF.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum AlphaMode {
+    /// Not at all: everything is opaque.
+    Opaque,
+    /// What is below the cutoff of the material is clear, the rest is opaque.
+    Mask,
+    /// As coverage.
+    Blend,
 }
 
 fn once() -> [f64; 2] {
@@ -276,7 +294,7 @@ fn rectangle([width, height]: [f64; 2], repeat: [f64; 2], place: DAffine3) -> [V
     [[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.0]].map(|[u, v]: [f64; 2]| {
         let part = dvec3((u - 0.5) * width, (0.5 - v) * height, 0.0);
         let texcoord = dvec2(u, v) * DVec2::from(repeat);
-        Vertex { object: place.transform_point3(part), part, texcoord }
+        Vertex { object: place.transform_point3(part), part, texcoord, tint: DVec4::ONE }
     })
 }
 

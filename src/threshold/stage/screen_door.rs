@@ -8,6 +8,8 @@ use core::num::NonZeroU32;
 
 /// Pixels along each side of a tile.
 pub const TILE: u32 = 4;
+/// The same of [`bayer`].
+const BAYER_TILE: u32 = 8;
 const STRATA: NonZeroU32 = NonZeroU32::new(TILE * TILE).unwrap();
 
 /// Which threshold a pixel of a tile of 4 x 4 has.
@@ -16,6 +18,8 @@ const STRATA: NonZeroU32 = NonZeroU32::new(TILE * TILE).unwrap();
 pub enum ScreenDoor {
     /// The ordered dither, the same in every tile and for every layer, [`fixed`].
     Fixed,
+    /// The same over 8 x 8 pixels, [`bayer`].
+    Bayer,
     /// An order that this seed draws, the same in every tile and for every layer, [`random_mask`].
     RandomMask(u32),
     /// Strata that are permuted and jittered for each tile and layer, [`randomised`].
@@ -24,15 +28,25 @@ pub enum ScreenDoor {
 
 impl ScreenDoor {
     /// Every pattern, in the order in which they are listed to users; the random order is that of seed 0.
-    pub const ALL: [Self; 3] = [Self::Fixed, Self::RandomMask(0), Self::Randomised];
+    pub const ALL: [Self; 4] = [Self::Fixed, Self::Bayer, Self::RandomMask(0), Self::Randomised];
 
     /// The name by which a user asks for it.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
             Self::Fixed => "fixed",
+            Self::Bayer => "bayer",
             Self::RandomMask(_) => "random",
             Self::Randomised => "hashed",
+        }
+    }
+
+    /// Pixels along each side of a tile.
+    #[must_use]
+    pub const fn tile(self) -> u32 {
+        match self {
+            Self::Fixed | Self::RandomMask(_) | Self::Randomised => TILE,
+            Self::Bayer => BAYER_TILE,
         }
     }
 
@@ -40,7 +54,7 @@ impl ScreenDoor {
     #[must_use]
     pub const fn hashes(self) -> u64 {
         match self {
-            Self::Fixed | Self::RandomMask(_) => 0,
+            Self::Fixed | Self::Bayer | Self::RandomMask(_) => 0,
             Self::Randomised => 3,
         }
     }
@@ -48,6 +62,7 @@ impl ScreenDoor {
     pub(in crate::threshold) fn threshold<R: Real>(self, pixel: [u32; 2], layer: u32) -> R {
         match self {
             Self::Fixed => fixed(pixel),
+            Self::Bayer => bayer(pixel),
             Self::RandomMask(seed) => random_mask(pixel, seed),
             Self::Randomised => randomised(pixel, layer),
         }
@@ -59,6 +74,7 @@ impl ScreenDoor {
         let pixels = out.iter_mut().zip(pixel);
         match self {
             Self::Fixed => pixels.for_each(|(out, &pixel)| *out = fixed(pixel)),
+            Self::Bayer => pixels.for_each(|(out, &pixel)| *out = bayer(pixel)),
             Self::RandomMask(seed) => {
                 // One mask for the whole screen.
                 let mask: [R; STRATA.get() as usize] =
@@ -78,6 +94,14 @@ impl ScreenDoor {
 #[must_use]
 pub fn fixed<R: Real>(pixel: [u32; 2]) -> R {
     regular(ordered(pixel), STRATA)
+}
+
+/// Returns the threshold of a pixel under the ordered dither of 8 x 8 pixels, `(k + 1/2) / 64` (Bayer 1973): what many engines
+/// call a dithered fade. Finer steps of coverage than [`fixed`], and the same fault: one mask for every layer. Not in the paper.
+#[must_use]
+pub fn bayer<R: Real>(pixel: [u32; 2]) -> R {
+    const STRATA: NonZeroU32 = NonZeroU32::new(BAYER_TILE * BAYER_TILE).unwrap();
+    regular(interleaved(pixel, BAYER_TILE.ilog2()), STRATA)
 }
 
 /// Returns the threshold of a pixel under one random mask for the whole screen: the strata of the tile in an order that
@@ -108,11 +132,16 @@ fn place(pixel: [u32; 2]) -> u32 {
     pixel[1] % TILE * TILE + pixel[0] % TILE
 }
 
-/// Returns the place of a pixel in the ordered dither: the bits of x xor y and of y, interleaved from the lowest.
-fn ordered([x, y]: [u32; 2]) -> u32 {
-    let (x, y) = (x % TILE, y % TILE);
+/// Returns the place of a pixel in the ordered dither of 4 x 4.
+fn ordered(pixel: [u32; 2]) -> u32 {
+    interleaved(pixel, TILE.ilog2())
+}
+
+/// Returns the place of a pixel in the ordered dither over so many bits of each coordinate: the bits of x xor y and of y,
+/// interleaved from the lowest.
+fn interleaved([x, y]: [u32; 2], bits: u32) -> u32 {
     let mixed = x ^ y;
-    (mixed & 1) << 3 | (y & 1) << 2 | (mixed & 2) | (y & 2) >> 1
+    (0..bits).fold(0, |place, bit| place << 2 | (mixed >> bit & 1) << 1 | (y >> bit & 1))
 }
 
 #[cfg(test)]
@@ -141,6 +170,17 @@ mod tests {
             }
         }
         assert_eq!((0..4).map(|x| ordered([x, 0])).collect::<Vec<_>>(), [0, 8, 2, 10]);
+    }
+
+    /// The matrix of Bayer 1973, in its first row and its first column, and each of its steps once.
+    #[test]
+    fn the_larger_dither_is_that_of_bayer() {
+        let step = |x, y| (64.0 * bayer::<f64>([x, y])) as u32;
+        assert_eq!([0, 1, 2, 3, 4, 5, 6, 7].map(|x| step(x, 0)), [0, 32, 8, 40, 2, 34, 10, 42]);
+        assert_eq!([0, 1, 2, 3, 4, 5, 6, 7].map(|y| step(0, y)), [0, 48, 12, 60, 3, 51, 15, 63]);
+        let mut steps: Vec<u32> = (0..64).map(|k| step(16 + k % 8, 24 + k / 8)).collect();
+        steps.sort_unstable();
+        assert!(steps.into_iter().eq(0..64));
     }
 
     /// "Even random mask patterns lead to correlation between composited layers": two layers look like one; with a

@@ -126,6 +126,12 @@ pub(super) const STAGES: &[Stage] = &[
         ["place.x ^ place.y", "place.x"]
     ),
     number_stage!(
+        "screen door, 8 x 8", bounded(2.5, 0.0, "a quotient: 2.5 ULP"), || door(ScreenDoor::Bayer),
+        "regular(bayer(vec2<u32>(word(0u) >> 20u, word(1u) >> 20u)), 64u)", 2, input::faded,
+        |words| screen_door::bayer([words[0] >> 20, words[1] >> 20]),
+        ["(mixed & 4u) >> 1u", "(mixed & 4u) >> 2u"]
+    ),
+    number_stage!(
         "screen door, randomised", bounded(2.5, 0.0, "a quotient: 2.5 ULP"), || door(ScreenDoor::Randomised),
         "randomised(vec2<u32>(word(0u) >> 4u, word(1u) >> 4u), word(1u))", 2, input::faded,
         |words| screen_door::randomised([words[0] >> 4, words[1] >> 4], words[1]),
