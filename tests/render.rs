@@ -652,7 +652,9 @@ fn veil(step: f64) -> Study {
          motion = {{ translate = [{step}, 0.0] }}\n[[texture]]\nname = 't'\nconstant = {{ alpha = 0.5 }}\n[[surface]]\ntexture = 't'\n\
          card = {{ size = [8.0, 8.0] }}\n[[effects]]\nname = 'object'\nrobust = {{}}\n\
          [[effects]]\nname = 'screen'\nrobust = {{}}\ncoordinates = {{ space = 'screen' }}\n\
-         [[effects]]\nname = 'mask'\nscreen_door = {{ mask = 'fixed' }}\n"
+         [[effects]]\nname = 'mask'\nscreen_door = {{ mask = 'fixed' }}\n\
+         [[effects]]\nname = 'moved'\nrobust = {{}}\njitter = {{ frames = 4 }}\n\
+         [[effects]]\nname = 'mixed'\nrobust = {{}}\njitter = {{ frames = 4 }}\naverage = {{ frames = 4 }}\n"
     );
     drawn(&ready(read::read(&text, "veil.toml").unwrap_or_else(|error| panic!("{error}"))))
 }
@@ -680,7 +682,14 @@ fn noise_that_is_locked_to_the_screen_is_not_called_stable() {
             study.notes.iter().map(|note| note.split(':').next().expect("a name")).collect();
         assert_eq!(locked, ["screen", "mask"], "{:?}", study.notes);
     }
-    assert_eq!(veil(0.0).notes, Vec::<String>::new());
+    let still = veil(0.0);
+    assert_eq!(still.notes, Vec::<String>::new());
+    assert_eq!(numbers(&still, "object"), [0.0; 2]);
+    // A camera that moves within the pixel is followed, until its images are mixed: the mixture stands still.
+    let [pixel, surface] = numbers(&still, "moved");
+    assert!(pixel > 0.05 && surface > 0.05 && surface != pixel, "{pixel} {surface}");
+    let [pixel, surface] = numbers(&still, "mixed");
+    assert!(pixel > 0.0 && (surface - pixel).abs() < 1e-3, "{pixel} {surface}");
 }
 
 /// Near, a card of sharp leaves is right under the alpha test; from afar it vanishes, and the planner looks there, too.

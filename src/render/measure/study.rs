@@ -16,6 +16,7 @@ use crate::render::effect::Effects;
 use crate::render::effect::plan::plan;
 use crate::render::scene_file::load::Scene;
 use crate::render::scene_file::schema::Takes;
+use glam::DVec2;
 use image::RgbImage;
 use std::time::Instant;
 
@@ -231,7 +232,11 @@ impl Take {
             gaze: self.plan.setup.gaze,
         };
         let places = f64::from(self.plan.setup.places);
-        let offset = |index: u32| self.plan.setup.offset(index) / places;
+        // What is mixed from moved images stands where none of them is moved.
+        let offset = |index: u32| match self.plan.mixes() {
+            true => DVec2::ZERO,
+            false => self.plan.setup.offset(index) / places,
+        };
         let along =
             motion.map(|(now, before)| Along { now, before, jitter: offset(index - 1) - offset(index) });
         measured.add(&frame, truth, along.as_ref(), asked);
