@@ -714,6 +714,13 @@ fn hostile_files_are_refused_with_a_reason() {
     // Places that no texture has, and that whole numbers cannot count.
     let far = Model::opaque(TEXTURE).texcoords(&[[0.0, 1e30], [1e30, 1e30], [1e30, -3e38], [0.0, 0.0]]);
     assert_covers("far texture coordinates", far.covers(), [QUAD; 2]);
+    let without_levels = far.with(|model| model.sampler = r#"{"minFilter":9729}"#);
+    assert!(without_levels.covers().iter().all(|share| share.is_finite()));
+    let factor = r#""alphaMode":"BLEND","pbrMetallicRoughness":{"baseColorTexture":{"index":0},"baseColorFactor":[1,1,1,1e30]}"#;
+    assert_covers("a factor beyond 1", Model::new(left_half(), factor).covers(), [QUAD / 2.0; 2]);
+    let boneless = skinned([0.0; 4], r#",{"name":"bone"}"#, "[]");
+    let message = boneless.scene("", "", 5.0).map(|_| ()).expect_err("no joints");
+    assert!(message.contains("skin 0 has no joints"), "{message}");
 }
 
 #[test]

@@ -239,6 +239,11 @@ fn device_formats_are_read_with_their_own_levels() {
     save("astc.ktx2", ktx2(157, 4, 0, &[bc3(51)]));
     save("few.ktx2", ktx2(37, 4, 0, &[plain(2, 51)]));
     save("cut.ktx2", ktx2(37, 4, 0, &[plain(4, 51)])[..60].to_vec());
+    // A block of the description of the data whose texel blocks are 256 wide.
+    let mut blocks = ktx2(37, 4, 0, &[plain(4, 51)]);
+    blocks[52..56].copy_from_slice(&28_u32.to_le_bytes());
+    blocks.splice(108..108, [0, 0, 0, 0, 2, 0, 24, 0, 1, 1, 1, 0, 0xff, 0, 0, 0, 4, 0, 0, 0, 0, 0, 0, 0]);
+    save("blocks.ktx2", blocks);
     let mut huge = dds(8, &[51]);
     huge[12..20].fill(0x7f);
     save("huge.dds", huge);
@@ -252,6 +257,7 @@ fn device_formats_are_read_with_their_own_levels() {
         ("astc.ktx2", "of a kind that is not read here"),
         ("few.ktx2", "cannot be decoded: expected surface to have at least 64 bytes but found 16"),
         ("cut.ktx2", "is no sound KTX2 file"),
+        ("blocks.ktx2", "is no sound KTX2 file"),
         ("huge.dds", "pixels"),
         ("cube.dds", "is a cube map"),
     ] {

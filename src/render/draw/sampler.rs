@@ -91,6 +91,9 @@ impl Wrap {
             let first = along as i32;
             return (first as usize, first as usize + 1, along - first as f32);
         }
+        if !along.is_finite() {
+            return (0, 0, 0.0);
+        }
         let first = Real::floor(along);
         (self.texel(first as i64, side), self.texel((first as i64).saturating_add(1), side), along - first)
     }

@@ -38,7 +38,7 @@ pub fn choose(scene: &Scene, textures: &[Texture]) -> Choice {
     let mut surveys = vec![(1.0, Survey::new(scene, textures, 1.0))];
     surveys.extend(factors.map(|factor| (factor, Survey::new(scene, textures, factor))));
     let survey = &surveys[0].1;
-    let worst = surveys.iter().max_by(|(_, a), (_, b)| a.bias().total_cmp(&b.bias()));
+    let worst = surveys.iter().rev().max_by(|(_, a), (_, b)| a.bias().total_cmp(&b.bias()));
     let (farthest, bias) = worst.map_or((1.0, 0.0), |(factor, survey)| (*factor, survey.bias()));
     let seen = if farthest == 1.0 { String::new() } else { format!(" from {farthest} times the distance") };
     let mut effects = Effects { name: Some("auto".to_owned()), ..Effects::default() };

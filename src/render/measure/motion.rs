@@ -91,7 +91,7 @@ impl Motion {
         let first = (place - 0.5).floor();
         let along = place - 0.5 - first;
         [[0, 0], [1, 0], [0, 1], [1, 1]].into_iter().filter_map(move |[right, down]: [i64; 2]| {
-            let [x, y] = [first.x as i64 + right, first.y as i64 + down];
+            let [x, y] = [(first.x as i64).saturating_add(right), (first.y as i64).saturating_add(down)];
             let share = |by: i64, along: f64| if by == 1 { along } else { 1.0 - along };
             let share = share(right, along.x) * share(down, along.y);
             let is_inside = (0..width).contains(&x) && (0..height).contains(&y) && share > 0.0;

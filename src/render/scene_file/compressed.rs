@@ -47,6 +47,10 @@ fn dds(
     check: &dyn Fn([u32; 2]) -> Result<(), ImageError>,
 ) -> Result<Decoded, ImageError> {
     let file = Dds::read(bytes).map_err(|error| wrong(path, format!("is no sound DDS file: {error}")))?;
+    // The decoder multiplies the count of layers by the faces of a cube.
+    if let Some(header) = &file.header10 {
+        flat(path, 1, header.array_size.max(1), header.misc_flag == ddsfile::MiscFlag::TEXTURECUBE)?;
+    }
     let mut surface = Surface::from_dds(&file)
         .map_err(|error| wrong(path, format!("is DDS of a kind that is not read here: {error}")))?;
     let is_cube = file.header.caps2.contains(ddsfile::Caps2::CUBEMAP);
@@ -76,6 +80,9 @@ fn ktx2(
     path: &Path,
     check: &dyn Fn([u32; 2]) -> Result<(), ImageError>,
 ) -> Result<Decoded, ImageError> {
+    if !has_sound_blocks(bytes) {
+        return Err(wrong(path, "is no sound KTX2 file: its description of the data is broken".to_owned()));
+    }
     let file =
         ktx2::Reader::new(bytes).map_err(|error| wrong(path, format!("is no sound KTX2 file: {error}")))?;
     let header = file.header();
@@ -114,6 +121,28 @@ fn ktx2(
         return Err(wrong(path, "has no level".to_owned()));
     }
     Ok(Decoded { levels, premultiplied: file.is_alpha_premultiplied().unwrap_or(false) })
+}
+
+/// Whether the blocks of the data format descriptor of a KTX2 file have sizes of texel blocks that the reader can count: it adds one to
+/// a byte.
+fn has_sound_blocks(bytes: &[u8]) -> bool {
+    let word = |at: usize| {
+        let word = bytes.get(at..at.checked_add(4)?)?;
+        Some(u32::from_le_bytes([word[0], word[1], word[2], word[3]]) as usize)
+    };
+    // Offset and length stand behind the magic and nine numbers.
+    let (Some(first), Some(length)) = (word(48), word(52)) else { return true };
+    let end = first.saturating_add(length);
+    let mut at = first.saturating_add(4);
+    while at < end {
+        let Some(size) = word(at.saturating_add(4)).map(|word| word >> 16) else { return true };
+        let sides = bytes.get(at.saturating_add(12)..at.saturating_add(16)).unwrap_or_default();
+        if sides.contains(&0xff) {
+            return false;
+        }
+        at = at.saturating_add(size.max(4));
+    }
+    true
 }
 
 /// Levels down to one texel.

@@ -130,7 +130,9 @@ fn of_image(file: &mut File<'_>, index: usize) -> Result<Vec<Level>, Failed> {
     let texture = Failed::Texture;
     let decoded = Decoded::new(bytes, &shown, file.texels_left).map_err(texture)?;
     let levels: Vec<Level> = decoded.with_alpha().levels(Channel::Alpha, &shown).map_err(texture)?;
-    file.texels_left -= levels.iter().map(|level| level.alpha.len() as u64).sum::<u64>();
+    // The other levels of a file are a third more than was asked for.
+    let texels = levels.iter().map(|level| level.alpha.len() as u64).sum::<u64>();
+    file.texels_left = file.texels_left.saturating_sub(texels);
     Ok(levels)
 }
 
@@ -154,7 +156,7 @@ fn multiply(level: &mut Level, [red, green, blue, alpha]: [f32; 4], mode: AlphaM
     match mode {
         AlphaMode::Opaque => level.alpha.fill(1.0),
         AlphaMode::Mask | AlphaMode::Blend => {
-            level.alpha.iter_mut().for_each(|a| *a = (*a * alpha).clamp(0.0, 1.0))
+            level.alpha.iter_mut().for_each(|a| *a *= alpha.clamp(0.0, 1.0))
         }
     }
     let factors = [red, green, blue].map(|factor| stored(f64::from(factor)));
@@ -186,7 +188,7 @@ fn compare(file: &mut File<'_>, material: &gltf::Material<'_>, source: &TextureS
             (None, Some(index)) => format!("material {index}"),
             (None, None) => "what has no material".to_owned(),
         };
-        file.found.notes.push(format!(
+        file.tell(format!(
             "{name} is tested at {cutoff}, which keeps {kept:.0} % of the texels of its finest level, while their mean \
              alpha is {mean:.0} %: the truth here is the former, a hashed threshold shows the latter; \
              `alpha_mode = \"blend\"` makes that the truth, too"

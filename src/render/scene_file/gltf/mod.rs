@@ -20,7 +20,7 @@ use super::limits::MOST_TRIANGLES;
 use super::surface::AlphaMode;
 use crate::render::draw::mesh::{Mesh, Triangle, Vertex};
 use crate::render::draw::texture::TextureSource;
-use glam::{DMat2, DMat4, DQuat, DVec2, DVec3};
+use glam::{DMat2, DMat3, DMat4, DQuat, DVec2, DVec3};
 use gltf::buffer;
 use gltf::scene::Transform;
 use std::collections::{BTreeMap, BTreeSet};
@@ -269,9 +269,13 @@ impl File<'_> {
                 self.instances(node)?.into_iter().map(|instance| to_object * instance).collect()
             }
         };
+        // A skin goes round as its node says, though that does not place it.
+        let of_node =
+            self.placed.get(&node.index()).map_or(1.0, |placed| DMat3::from_mat4(*placed).determinant());
+        let is_skin_mirrored = joints.is_some() && of_node < 0.0;
         let weights = node.weights().or_else(|| mesh.weights()).unwrap_or_default();
         for primitive in mesh.primitives() {
-            let read = self.read_primitive(&primitive, weights, joints.as_deref(), &copies);
+            let read = self.read_primitive(&primitive, weights, joints.as_deref(), &copies, is_skin_mirrored);
             read.map_err(|failed| match failed {
                 Failed::Content(what) => {
                     Failed::Content(format!("mesh {}, primitive {}: {what}", mesh.index(), primitive.index()))
@@ -284,6 +288,9 @@ impl File<'_> {
 
     /// Where each joint of a skin takes a vertex.
     fn joints(&self, skin: &gltf::Skin<'_>) -> Result<Vec<DMat4>, Failed> {
+        if skin.joints().next().is_none() {
+            return Err(format!("skin {} has no joints", skin.index()).into());
+        }
         let inverses = skin.inverse_bind_matrices();
         let inverses =
             inverses.map(|found| accessor::read(&found, self.buffers, "inverse bind matrices", &[16]));
@@ -318,6 +325,7 @@ impl File<'_> {
             let missing =
                 || format!("node {} names accessor {index} as {name}, which is not there", node.index());
             let found = self.document.accessors().nth(index as usize).ok_or_else(missing)?;
+            self.limit(found.count() as u64)?;
             Ok(Some(accessor::read(&found, self.buffers, name, &[width])?))
         };
         let (moves, turns, scales) =
@@ -366,6 +374,13 @@ impl File<'_> {
     /// Reads the file that an address names, or what the address itself holds.
     fn bytes_of(&self, uri: &str) -> Result<buffer::Data, gltf::Error> {
         source_bytes(buffer::Source::Uri(uri), &mut None, self.path.parent())
+    }
+
+    /// Tells something once.
+    fn tell(&mut self, note: String) {
+        if !self.found.notes.contains(&note) {
+            self.found.notes.push(note);
+        }
     }
 
     /// Refuses vertices or triangles beyond what is drawn.

@@ -18,24 +18,26 @@ fn check_count(what: &str, is: usize, vertices: usize) -> Result<(), Failed> {
 
 impl File<'_> {
     /// Adds a primitive, once for each of `copies`; `weights` are those of its morph targets, and `joints`, where it hangs on a
-    /// skin, take vertices to the object.
+    /// skin, take vertices to the object, turned inside out where the skin is mirrored.
     pub(super) fn read_primitive(
         &mut self,
         primitive: &gltf::Primitive<'_>,
         weights: &[f32],
         joints: Option<&[DMat4]>,
         copies: &[DMat4],
+        is_skin_mirrored: bool,
     ) -> Result<(), Failed> {
         let triangles: fn(&[u32]) -> Vec<[u32; 3]> = match primitive.mode() {
             Mode::Triangles => list,
             Mode::TriangleStrip => strip,
             Mode::TriangleFan => fan,
             Mode::Points | Mode::Lines | Mode::LineLoop | Mode::LineStrip => {
-                self.found.notes.push(NOT_DRAWN.to_owned());
+                self.tell(NOT_DRAWN.to_owned());
                 return Ok(());
             }
         };
         let Some(positions) = primitive.get(&Semantic::Positions) else { return Ok(()) };
+        self.limit(positions.count() as u64)?;
         let parts = self.positions(
             &accessor::read(&positions, self.buffers, "positions", &[3])?,
             primitive,
@@ -73,7 +75,7 @@ impl File<'_> {
                 self.found.vertices.push(Vertex { object, part, texcoord, tint });
             }
             // What is mirrored goes round the other way.
-            let is_mirrored = DMat3::from_mat4(*copy).determinant() < 0.0;
+            let is_mirrored = is_skin_mirrored || DMat3::from_mat4(*copy).determinant() < 0.0;
             for &[a, b, c] in &triangles {
                 let corners = if is_mirrored { [a, c, b] } else { [a, b, c] };
                 self.found.triangles.push((corners.map(|c| first + c), cover.texture, cover.single_sided));
@@ -114,7 +116,7 @@ impl File<'_> {
                     "a material reads TEXCOORD_{}, which its mesh has not: (0, 0) is read",
                     cover.set
                 );
-                self.found.notes.push(note);
+                self.tell(note);
             }
             return Ok(Vec::new());
         };
@@ -145,7 +147,7 @@ impl File<'_> {
         if let Some(cutoff) = cover.cutoff
             && tints.iter().any(|tint| tint.w < 0.9)
         {
-            self.found.notes.push(format!(
+            self.tell(format!(
                 "vertex colours change the alpha of a material that is tested at {cutoff}: the truth here is what the test keeps \
                  of their product, a hashed threshold shows the product"
             ));
