@@ -59,9 +59,10 @@ impl Motion {
             let found = |at: Option<usize>| {
                 let Some(at) = at else { return (f32::INFINITY, None) };
                 let triangle = &scene.mesh.triangles[fragments.triangle[at] as usize];
-                let object = &scene.mesh.objects[triangle.object as usize];
                 let place = DVec3::from([0, 1, 2].map(|c| f64::from(fragments.footprint.position[c][at])));
-                let world = object.to_world(earlier).transform_point3(object.deform(place, earlier));
+                let corners = triangle.corners.map(|corner| scene.mesh.vertices[corner as usize].object);
+                // Corners are deformed, and what lies between them goes with them.
+                let world = carried(place, corners, scene.mesh.place(triangle, earlier));
                 let before = camera_before.project(world);
                 (fragments.depth[at], before.map(|place| (place, camera_before.to_eye(world).z)))
             };
@@ -98,6 +99,19 @@ impl Motion {
             is_inside.then(|| ((y * width + x) as usize, share))
         })
     }
+}
+
+/// Where a point of a triangle is when its corners are elsewhere; the first corner of one that has no area.
+fn carried(place: DVec3, from: [DVec3; 3], to: [DVec3; 3]) -> DVec3 {
+    let [u, v, point] = [from[1] - from[0], from[2] - from[0], place - from[0]];
+    let (uu, uv, vv) = (u.dot(u), u.dot(v), v.dot(v));
+    let area = uu * vv - uv * uv;
+    if area <= 0.0 {
+        return to[0];
+    }
+    let (pu, pv) = (point.dot(u), point.dot(v));
+    let [b, c] = [(vv * pu - uv * pv) / area, (uu * pv - uv * pu) / area];
+    to[0] + b * (to[1] - to[0]) + c * (to[2] - to[0])
 }
 
 impl Along<'_> {
@@ -163,6 +177,21 @@ mod tests {
         // A turn about its own axis leaves the axis where it is.
         let spinning = way(&scene(still, &format!("{CARD}\nspin = 5.0")), [31, 32]);
         assert!(spinning.x.abs() < 0.1, "{spinning}");
+    }
+
+    /// Between its corners a card that sways is flat: in the first frame every point is where it is.
+    #[test]
+    fn points_between_deformed_corners_go_with_them() {
+        let scene = scene("", &format!("{CARD}\nsway = [0.5, 8.0]"));
+        let motion = Motion::new(&scene, &SHOT, 0);
+        let middles = (0..64 * 64).map(|at| dvec2(f64::from(at % 64) + 0.5, f64::from(at / 64) + 0.5));
+        let mut seen = 0;
+        for (middle, (place, _)) in middles.zip(&motion.before).filter_map(|(m, found)| Some((m, (*found)?)))
+        {
+            assert!((place - middle).length() < 1e-3, "{middle} {place}");
+            seen += 1;
+        }
+        assert!(seen > 3000, "{seen}");
     }
 
     #[test]

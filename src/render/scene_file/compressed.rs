@@ -188,7 +188,6 @@ fn of_vulkan(format: ktx2::Format) -> Option<Format> {
         V::BC4_UNORM_BLOCK => I::BC4RUnorm,
         V::BC5_UNORM_BLOCK => I::BC5RgUnorm,
         V::BC6H_UFLOAT_BLOCK => I::BC6hRgbUfloat,
-        V::BC6H_SFLOAT_BLOCK => I::BC6hRgbSfloat,
         V::BC7_UNORM_BLOCK | V::BC7_SRGB_BLOCK => I::BC7RgbaUnorm,
         _ => return None,
     }))
@@ -202,7 +201,7 @@ fn channels(format: ImageFormat) -> Option<(u8, bool)> {
         I::R16Unorm | I::R16Float | I::R32Float => (1, true),
         I::Rg8Unorm | I::BC5RgUnorm | I::Bgr8Unorm => (3, false),
         I::Rg16Unorm | I::Rg16Float | I::Rg32Float | I::Rgb32Float => (3, true),
-        I::BC6hRgbUfloat | I::BC6hRgbSfloat => (3, true),
+        I::BC6hRgbUfloat => (3, true),
         I::Rgba8Unorm
         | I::Rgba8UnormSrgb
         | I::Bgra8Unorm
